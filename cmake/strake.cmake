@@ -1,0 +1,30 @@
+# Compiler settings and the two functions by which every part of the tree is declared.
+
+add_library(strake_flags INTERFACE)
+target_include_directories(strake_flags INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_options(strake_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+                       -Wno-sign-conversion -Werror)
+
+# strake_library(NAME SOURCES... [DEPENDS targets...]): a static library strake_NAME.
+function(strake_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
+  add_library(strake_${name} STATIC ${ARG_SOURCES})
+  target_link_libraries(strake_${name} PUBLIC ${ARG_DEPENDS} PRIVATE strake_flags)
+  target_include_directories(strake_${name} PUBLIC ${PROJECT_SOURCE_DIR})
+endfunction()
+
+# strake_program(NAME SOURCES... [DEPENDS targets...]): an executable in build/bin.
+function(strake_program name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_DEPENDS} strake_flags)
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+endfunction()
+
+# strake_test(NAME SOURCES... [DEPENDS targets...]): a GoogleTest executable, one ctest entry a case.
+function(strake_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_DEPENDS} strake_flags GTest::gtest_main)
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60)
+endfunction()

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "common/core/fields.h"
+#include "common/core/observer.h"
+#include "common/core/options.h"
+#include "common/core/poly_mesh.h"
+#include "common/core/report.h"
+#include "common/core/tri_mesh.h"
+
+namespace strake {
+
+struct EvaluateOptions {
+  std::int64_t samples = 200000;  ///< of each surface, for distances
+
+  OptionList declare();
+};
+
+struct EvaluateResult {
+  Report report;
+};
+
+/// Measures a polygon mesh against the surface it approximates.
+/// \param field  curvature directions for the alignment figures; nullptr: these are left out
+EvaluateResult evaluate_mesh(const TriMesh& reference, const PrincipalField* field,
+                             const PolyMesh& candidate, const EvaluateOptions& options,
+                             Observer& observer);
+
+}  // namespace strake

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "common/core/observer.h"
+#include "common/core/options.h"
+#include "common/core/poly_mesh.h"
+#include "common/core/report.h"
+#include "common/core/tri_mesh.h"
+
+namespace strake {
+
+struct ImportOptions {
+  double feature_angle_deg = 40;  ///< edges bent by more than this are feature edges; 180: none
+  bool strict = false;            ///< refuse what would have to be repaired
+
+  OptionList declare();
+};
+
+struct ImportResult {
+  TriMesh mesh;
+  Report report;  ///< census, repairs with counts, feature graph
+};
+
+/// Turns a polygon soup into an oriented 2-manifold triangle mesh with its feature graph.
+/// \throw InputError where no usable surface is left, or with `strict` where a repair is needed
+ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Observer& observer);
+
+}  // namespace strake

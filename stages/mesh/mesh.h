@@ -1,0 +1,31 @@
+#pragma once
+
+#include "common/core/line_set.h"
+#include "common/core/observer.h"
+#include "common/core/options.h"
+#include "common/core/poly_mesh.h"
+#include "common/core/report.h"
+#include "common/core/tri_mesh.h"
+
+namespace strake {
+
+struct MeshOptions {
+  std::int64_t max_sides = 5;  ///< of a face
+
+  OptionList declare();
+};
+
+struct MeshResult {
+  QuadMesh quads;
+  Report report;
+};
+
+/// Builds the polygon mesh whose edges run along the lines.
+///
+/// Paper: [MK04] section 5. Differs: an arrangement on the surface, decided combinatorially, instead
+/// of angles in space; so every cell closes and the topology of the input is kept by construction.
+/// \throw AlgorithmError where the result fails its own check
+MeshResult mesh_lines(const TriMesh& mesh, const LineSet& lines, const MeshOptions& options,
+                      Observer& observer);
+
+}  // namespace strake

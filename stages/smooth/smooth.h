@@ -1,0 +1,30 @@
+#pragma once
+
+#include "common/core/fields.h"
+#include "common/core/observer.h"
+#include "common/core/options.h"
+#include "common/core/report.h"
+#include "common/core/tri_mesh.h"
+
+namespace strake {
+
+struct SmoothOptions {
+  std::int64_t iterations = 5;         ///< of the operator of [MK04] section 4.1
+  std::string extension = "cross";     ///< "cross": smooth cross field; "paper": tensors only
+  double field_stiffness = 20;         ///< how strongly `cross` holds to the curvature directions
+
+  OptionList declare();
+};
+
+struct SmoothResult {
+  PrincipalField field;
+  Report report;
+};
+
+/// Smooths curvature tensors from confident into non-confident areas and extracts their frames.
+/// Paper: [MK04] section 4.1 (confidence, operator) and section 2 (frame realignment).
+/// Deterministic for any thread count.
+SmoothResult smooth_tensors(const TriMesh& mesh, const TensorField& tensor,
+                            const SmoothOptions& options, Observer& observer);
+
+}  // namespace strake

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "common/core/fields.h"
+#include "common/core/line_set.h"
+#include "common/core/observer.h"
+#include "common/core/options.h"
+#include "common/core/report.h"
+#include "common/core/tri_mesh.h"
+
+namespace strake {
+
+struct TraceOptions {
+  std::optional<Length> tolerance;        ///< approximation tolerance; default 0.05 %
+  std::optional<std::int64_t> vertices;   ///< wanted vertex count instead of a tolerance
+  std::optional<std::int64_t> faces;      ///< wanted face count instead of a tolerance
+  double spacing_scale = 1;               ///< factor on all spacings, for corrections of the count
+  Length max_spacing = percent(5);        ///< cap on the distance between lines
+  double stop_fraction = 0.6;             ///< lines stop at this share of the wanted distance
+  std::int64_t seed = 1;                  ///< of the random generator that places the first seeds
+
+  OptionList declare();
+};
+
+struct TraceResult {
+  LineSet lines;
+  Report report;
+};
+
+/// Covers the surface with lines of minimum and maximum curvature, boundary and feature lines.
+/// Paper: [MK04] sections 3 and 4.2. Deterministic for any thread count.
+TraceResult trace_lines(const TriMesh& mesh, const PrincipalField& field,
+                        const TraceOptions& options, Observer& observer);
+
+}  // namespace strake
