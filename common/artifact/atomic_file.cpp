@@ -1,0 +1,119 @@
+#include "common/artifact/atomic_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/core/error.h"
+
+namespace strake {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const char* action, const fs::path& path, int error) {
+  throw InputError(fmt::format("cannot {} '{}': {}", action, path.string(), std::strerror(error)));
+}
+
+fs::path resolve_target(fs::path target) {
+  std::error_code ignored;
+  if (fs::is_symlink(fs::symlink_status(target, ignored))) {
+    target = fs::weakly_canonical(target, ignored);
+  }
+  const fs::file_status status = fs::status(target, ignored);
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    throw InputError(
+        fmt::format("cannot write '{}': it exists and is not a regular file; give a file name",
+                    target.string()));
+  }
+  return target;
+}
+
+bool same_bytes(const fs::path& a, const fs::path& b) {
+  std::error_code error_a;
+  std::error_code error_b;
+  const auto size_a = fs::file_size(a, error_a);
+  const auto size_b = fs::file_size(b, error_b);
+  if (error_a || error_b || size_a != size_b) return false;
+  std::ifstream stream_a(a, std::ios::binary);
+  std::ifstream stream_b(b, std::ios::binary);
+  constexpr std::streamsize kBlock = 1 << 20;
+  std::vector<char> block_a(kBlock);
+  std::vector<char> block_b(kBlock);
+  for (auto left = static_cast<std::streamsize>(size_a); left > 0;) {
+    const std::streamsize count = std::min(left, kBlock);
+    if (!stream_a.read(block_a.data(), count) || !stream_b.read(block_b.data(), count)) {
+      return false;
+    }
+    if (std::memcmp(block_a.data(), block_b.data(), static_cast<std::size_t>(count)) != 0) {
+      return false;
+    }
+    left -= count;
+  }
+  return true;
+}
+
+/// Flushes a file or folder to the disk. File systems that cannot flush folders say EINVAL.
+void flush(const fs::path& path, int flags) {
+  const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC);
+  if (descriptor < 0) fail("open", path, errno);
+  int error = 0;
+  if (::fsync(descriptor) != 0 && errno != EINVAL && errno != ENOTSUP) error = errno;
+  if (::close(descriptor) != 0 && error == 0) error = errno;
+  if (error != 0) fail("flush", path, error);
+}
+
+fs::path folder_of(const fs::path& target) {
+  return target.has_parent_path() ? target.parent_path() : fs::path(".");
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(fs::path target) : target_(resolve_target(std::move(target))) {
+  static std::atomic<unsigned> counter{0};
+  const std::string name = target_.filename().string();
+  // A name left behind by a killed process of the same number is skipped.
+  for (int attempt = 0; attempt < 1000; ++attempt) {
+    temporary_ = folder_of(target_) / fmt::format(".{}.{}-{}.tmp", name, ::getpid(), counter++);
+    const int descriptor =
+        ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor >= 0) {
+      ::close(descriptor);
+      pending_ = true;
+      return;
+    }
+    if (errno != EEXIST) fail("write", target_, errno);
+  }
+  fail("write", target_, EEXIST);
+}
+
+AtomicFile::~AtomicFile() {
+  std::error_code ignored;
+  if (pending_) fs::remove(temporary_, ignored);
+}
+
+bool AtomicFile::commit() {
+  if (same_bytes(temporary_, target_)) {
+    std::error_code ignored;
+    fs::remove(temporary_, ignored);
+    pending_ = false;
+    return false;
+  }
+  flush(temporary_, O_RDWR);
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("replace", target_, errno);
+  pending_ = false;
+  flush(folder_of(target_), O_RDONLY | O_DIRECTORY);
+  return true;
+}
+
+}  // namespace strake

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+
+namespace strake {
+
+/// A file that appears under its name complete or not at all.
+///
+/// The caller writes to `temporary()`, closes it after checking every write, and calls `commit()`.
+/// Without a commit (an exception, an interruption) the destructor removes the temporary file and
+/// the target stays as it was. Two writers of one target do not disturb each other: the last wins.
+class AtomicFile {
+ public:
+  /// Creates an empty temporary file in the folder of `target`; follows `target` if it is a link.
+  /// \throw InputError where that folder is missing or not writable, or where `target` exists and
+  ///        is no regular file
+  explicit AtomicFile(std::filesystem::path target);
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+  ~AtomicFile();
+
+  /// Where to write; the file exists and is empty, with the usual permissions.
+  [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
+
+  /// Flushes the temporary file to the disk and renames it to the target. Leaves the target and its
+  /// time stamp alone where it holds the same bytes already.
+  /// \return whether the target was replaced
+  /// \throw InputError naming path and reason; the temporary file goes with this object
+  bool commit();
+
+ private:
+  std::filesystem::path target_;
+  std::filesystem::path temporary_;
+  bool pending_ = false;
+};
+
+}  // namespace strake
