@@ -18,6 +18,7 @@ struct Length {
 
   /// The length in model units, for a mesh of the given bounding-box diagonal.
   [[nodiscard]] double resolve(double diagonal) const { return relative ? value * diagonal : value; }
+  /// The text that `parse` reads back to an equal length: "0.1%" or "2.5".
   [[nodiscard]] std::string to_string() const;
   /// \throw UsageError where the text is not a finite number, optionally followed by '%'
   static Length parse(std::string_view text);
@@ -36,7 +37,9 @@ struct Option {
   Target target;     ///< where the value lives; holds the default until parsed
   std::string unit;  ///< "deg", "length", "" ...
   std::string help;  ///< one sentence
-  double min = -std::numeric_limits<double>::infinity();  ///< of the number as written (share or units)
+  /// Limits of a number; of a length they are shares and bind only what is written with '%' (a
+  /// length in model units must be positive where `min` is not negative).
+  double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
   std::vector<std::string> choices = {};  ///< of a string option; empty: any text
   bool affects_result = true;  ///< false for --threads: not part of provenance and keys

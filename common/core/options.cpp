@@ -1,0 +1,177 @@
+#include "common/core/options.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <type_traits>
+
+#include "common/core/error.h"
+
+namespace strake {
+namespace {
+
+/// Shortest decimal text that reads back as the same number.
+std::string number_text(double value) {
+  char buffer[32];
+  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
+  return {buffer, result.ptr};
+}
+
+template <class Number>
+std::optional<Number> parse_number(std::string_view text) {
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  if constexpr (std::is_floating_point_v<Number>) {
+    if (!std::isfinite(value)) return std::nullopt;
+  }
+  return value;
+}
+
+std::optional<Length> parse_length(std::string_view text) {
+  const bool relative = text.ends_with('%');
+  if (relative) text.remove_suffix(1);
+  const auto value = parse_number<double>(text);
+  if (!value) return std::nullopt;
+  return Length{relative ? *value / 100 : *value, relative};
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+/// "between 0 and 180 deg", "at least 1", or "" where every number is allowed.
+std::string range_text(const Option& option) {
+  const bool is_length = std::holds_alternative<Length*>(option.target) ||
+                         std::holds_alternative<std::optional<Length>*>(option.target);
+  const std::string unit = option.unit.empty() || is_length ? "" : " " + option.unit;
+  const auto limit = [&](double value) {
+    return is_length ? Length{value, true}.to_string() : number_text(value);
+  };
+  const bool has_min = std::isfinite(option.min);
+  const bool has_max = std::isfinite(option.max);
+  if (has_min && has_max)
+    return "between " + limit(option.min) + " and " + limit(option.max) + unit;
+  if (has_min) return "at least " + limit(option.min) + unit;
+  if (has_max) return "at most " + limit(option.max) + unit;
+  return "";
+}
+
+/// Parses one option's text; every refusal names the option, the text and what is allowed.
+class Parser {
+ public:
+  Parser(const Option& option, std::string_view text) : option_(option), text_(text) {}
+
+  void operator()(bool* target) const {
+    if (text_ == "true") {
+      *target = true;
+    } else if (text_ == "false") {
+      *target = false;
+    } else {
+      refuse("true or false");
+    }
+  }
+  void operator()(std::int64_t* target) const { *target = number<std::int64_t>("a whole number"); }
+  void operator()(double* target) const { *target = number<double>("a number"); }
+  void operator()(std::string* target) const {
+    const auto& choices = option_.choices;
+    if (!choices.empty() && std::find(choices.begin(), choices.end(), text_) == choices.end()) {
+      refuse("one of " + joined(choices));
+    }
+    *target = std::string(text_);
+  }
+  void operator()(Length* target) const {
+    const auto length = parse_length(text_);
+    if (!length) refuse(allowed(kLengthHelp));
+    // The limits are shares; of a length in model units only the sign can be judged without a mesh.
+    if (length->relative) {
+      check_range(length->value, kLengthHelp);
+    } else if (option_.min >= 0 && length->value <= 0) {
+      refuse("a length greater than 0");
+    }
+    *target = *length;
+  }
+  template <class T>
+  void operator()(std::optional<T>* target) const {
+    if (text_.empty()) {
+      target->reset();
+      return;
+    }
+    T value{};
+    (*this)(&value);
+    *target = value;
+  }
+
+ private:
+  static constexpr const char* kLengthHelp =
+      "a length such as 0.5% (of the bounding-box diagonal) or 2.5 (model units)";
+
+  template <class Number>
+  Number number(const char* what) const {
+    const auto value = parse_number<Number>(text_);
+    if (!value) refuse(allowed(what));
+    check_range(static_cast<double>(*value), what);
+    return *value;
+  }
+  void check_range(double value, const char* what) const {
+    if (!(value >= option_.min && value <= option_.max)) refuse(allowed(what));
+  }
+  [[nodiscard]] std::string allowed(const std::string& what) const {
+    const std::string range = range_text(option_);
+    return range.empty() ? what : what + ", " + range;
+  }
+  [[noreturn]] void refuse(const std::string& expected) const {
+    throw UsageError("option --" + option_.name + ": '" + std::string(text_) +
+                     "' is not allowed; expected " + expected);
+  }
+
+  const Option& option_;
+  std::string_view text_;
+};
+
+std::string text_of(bool value) { return value ? "true" : "false"; }
+std::string text_of(std::int64_t value) { return std::to_string(value); }
+std::string text_of(double value) { return number_text(value); }
+std::string text_of(const std::string& value) { return value; }
+std::string text_of(const Length& value) { return value.to_string(); }
+template <class T>
+std::string text_of(const std::optional<T>& value) {
+  return value ? text_of(*value) : "";
+}
+
+}  // namespace
+
+std::string Length::to_string() const {
+  if (!relative) return number_text(value);
+  // value * 100 may miss the number that was written by a rounding; the nearest short one is right.
+  const double scaled = value * 100;
+  for (int digits = 1; digits <= 17; ++digits) {
+    char buffer[40];
+    const auto result =
+        std::to_chars(buffer, buffer + sizeof buffer, scaled, std::chars_format::general, digits);
+    const std::string text(buffer, result.ptr);
+    if (parse_number<double>(text).value() / 100 == value) return text + "%";
+  }
+  return number_text(scaled) + "%";
+}
+
+Length Length::parse(std::string_view text) {
+  const auto length = parse_length(text);
+  if (!length) {
+    throw UsageError("'" + std::string(text) +
+                     "' is not a length; write a share of the bounding-box diagonal such as 0.5%, "
+                     "or model units such as 2.5");
+  }
+  return *length;
+}
+
+std::string Option::value() const {
+  return std::visit([](const auto* held) { return text_of(*held); }, target);
+}
+
+void Option::parse_into(std::string_view text) const { std::visit(Parser(*this, text), target); }
+
+}  // namespace strake
