@@ -1,0 +1,91 @@
+#include <array>
+#include <cstddef>
+#include <limits>
+
+#include "common/artifact/artifact_file.h"
+
+namespace strake {
+namespace {
+
+/// Position in TensorField::tensor (xx, xy, xz, yy, yz, zz) of each component that viewers expect
+/// (xx, yy, zz, xy, yz, xz).
+constexpr std::array<std::size_t, 6> kStoredComponent = {0, 3, 5, 1, 4, 2};
+
+}  // namespace
+
+bool write_artifact(const std::filesystem::path& path, const TensorField& field,
+                    const TriMesh& mesh, const Provenance& provenance) {
+  ArtifactWriter file(path, ArtifactKind::tensor, field.mesh_id, provenance);
+  file.wedge_grid(mesh);
+  std::vector<std::array<double, 6>> stored(field.tensor.size());
+  for (std::size_t w = 0; w < stored.size(); ++w) {
+    for (std::size_t i = 0; i < 6; ++i) stored[w][i] = field.tensor[w][kStoredComponent[i]];
+  }
+  file.own("tensor", stored);
+  file.own("normal", field.normal);
+  file.show("tensor", "PointData/tensor");
+  file.show("normal", "PointData/normal");
+  return file.commit();
+}
+
+TensorField read_tensor_field(const std::filesystem::path& path) {
+  const ArtifactReader file(path, ArtifactKind::tensor);
+  TensorField field;
+  field.mesh_id = file.mesh_id();
+  const auto stored = file.own<std::array<double, 6>>("tensor");
+  field.normal = file.own<Vec3>("normal");
+  file.require_rows(field.normal, stored.size(), "normal");
+  file.require_finite(stored, "tensor");
+  file.require_finite(field.normal, "normal");
+  field.tensor.resize(stored.size());
+  for (std::size_t w = 0; w < stored.size(); ++w) {
+    for (std::size_t i = 0; i < 6; ++i) field.tensor[w][kStoredComponent[i]] = stored[w][i];
+  }
+  return field;
+}
+
+bool write_artifact(const std::filesystem::path& path, const PrincipalField& field,
+                    const TriMesh& mesh, const Provenance& provenance) {
+  ArtifactWriter file(path, ArtifactKind::field, field.mesh_id, provenance);
+  file.wedge_grid(mesh);
+  file.own("normal", field.normal);
+  file.own("t_min", field.t_min);
+  file.own("k_min", field.k_min);
+  file.own("k_max", field.k_max);
+  file.own("cross", field.cross);
+  file.own("wedge_confidence", field.wedge_confidence);
+  file.own("face_confidence", field.face_confidence);
+  file.own("cross_extended", std::vector<std::uint8_t>{field.cross_extended});
+  for (const char* name : {"normal", "t_min", "k_min", "k_max", "cross", "wedge_confidence"}) {
+    file.show(name, std::string("PointData/") + name);
+  }
+  file.show("face_confidence", "CellData/face_confidence");
+  return file.commit();
+}
+
+PrincipalField read_principal_field(const std::filesystem::path& path) {
+  const ArtifactReader file(path, ArtifactKind::field);
+  PrincipalField field;
+  field.mesh_id = file.mesh_id();
+  const auto read_per_wedge = [&](const char* name, auto& rows) {
+    rows = file.own<typename std::remove_reference_t<decltype(rows)>::value_type>(name);
+    file.require_rows(rows, field.normal.size(), name);
+    file.require_finite(rows, name);
+  };
+  field.normal = file.own<Vec3>("normal");
+  file.require_finite(field.normal, "normal");
+  read_per_wedge("t_min", field.t_min);
+  read_per_wedge("k_min", field.k_min);
+  read_per_wedge("k_max", field.k_max);
+  read_per_wedge("cross", field.cross);
+  read_per_wedge("wedge_confidence", field.wedge_confidence);
+  field.face_confidence = file.own<double>("face_confidence");
+  file.require_finite(field.face_confidence, "face_confidence");
+  const auto cross_extended = file.own<std::uint8_t>("cross_extended");
+  file.require_rows(cross_extended, 1, "cross_extended");
+  file.require_codes(cross_extended, 2, "cross_extended");
+  field.cross_extended = cross_extended.front() != 0;
+  return field;
+}
+
+}  // namespace strake

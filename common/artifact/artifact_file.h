@@ -1,0 +1,125 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/artifact/artifact.h"
+#include "common/artifact/atomic_file.h"
+#include "common/artifact/hdf5_file.h"
+
+/// What all kinds of artifacts share: root attributes, the group that viewers read, checks.
+namespace strake {
+
+/// An artifact being written; appears under its name at `commit`.
+class ArtifactWriter {
+ public:
+  ArtifactWriter(const std::filesystem::path& path, ArtifactKind kind, const std::string& mesh_id,
+                 const Provenance& provenance);
+
+  /// Writes a dataset of the artifact's own group.
+  template <class Row>
+  void own(const std::string& name, const std::vector<Row>& rows,
+           hdf5::Layout layout = hdf5::Layout::table) {
+    file_.dataset(group_ + "/" + name, rows, layout);
+  }
+  /// Makes an own dataset visible to viewers under `shown`, e.g. "PointData/normal".
+  void show(const std::string& name, const std::string& shown) {
+    file_.link(group_ + "/" + name, "/VTKHDF/" + shown);
+  }
+  /// Gives a dataset of the viewers' group a name in the own group.
+  void adopt(const std::string& shown, const std::string& name) {
+    file_.link("/VTKHDF/" + shown, group_ + "/" + name);
+  }
+  /// Writes a dataset that only viewers need.
+  template <class Row>
+  void view(const std::string& shown, const std::vector<Row>& rows) {
+    file_.dataset("/VTKHDF/" + shown, rows);
+  }
+  /// Writes the cells that viewers show.
+  /// \param connectivity  points of all cells, one after the other
+  /// \param offsets       [cells + 1] into `connectivity`
+  /// \param types         [cells] VTK cell types
+  template <class Row>
+  void grid(const std::vector<Vec3>& points, const std::vector<Row>& connectivity,
+            const std::vector<Index>& offsets, const std::vector<std::uint8_t>& types) {
+    file_.dataset("/VTKHDF/Points", points);
+    file_.dataset("/VTKHDF/Connectivity", connectivity, hdf5::Layout::flat);
+    file_.dataset("/VTKHDF/Offsets", offsets);
+    file_.dataset("/VTKHDF/Types", types);
+    counts(points.size(), types.size(), static_cast<std::size_t>(offsets.back()));
+  }
+  /// Writes the surface with one point per wedge, so that fields show their jumps at creases.
+  void wedge_grid(const TriMesh& mesh);
+
+  bool commit();
+
+ private:
+  void counts(std::size_t points, std::size_t cells, std::size_t connectivity);
+
+  AtomicFile target_;
+  hdf5::Writer file_;
+  std::string group_;
+};
+
+/// An artifact being read: kind and version are checked, datasets are checked as they are read.
+class ArtifactReader {
+ public:
+  ArtifactReader(const std::filesystem::path& path, ArtifactKind kind);
+
+  [[nodiscard]] const std::string& mesh_id() const { return mesh_id_; }
+  template <class Row>
+  [[nodiscard]] std::vector<Row> own(const std::string& name,
+                                     hdf5::Layout layout = hdf5::Layout::table) const {
+    return file_.dataset<Row>(group_ + "/" + name, layout);
+  }
+  /// Refuses the dataset where `sound` is false.
+  void require(bool sound, std::string_view name, std::string_view what) const {
+    if (!sound) file_.refuse(group_ + "/" + std::string(name), std::string(what));
+  }
+  template <class Row>
+  void require_rows(const std::vector<Row>& rows, std::size_t count, std::string_view name) const {
+    require(
+        rows.size() == count, name,
+        "has " + std::to_string(rows.size()) + " rows where " + std::to_string(count) + " belong");
+  }
+  /// Every number finite, of doubles, vectors or arrays of doubles.
+  template <class Row>
+  void require_finite(const std::vector<Row>& rows, std::string_view name) const {
+    require_finite(reinterpret_cast<const double*>(rows.data()),
+                   rows.size() * sizeof(Row) / sizeof(double), name);
+  }
+  /// Every index, or index of each row, in [low, high).
+  template <class Row>
+  void require_indices(const std::vector<Row>& rows, Index low, std::size_t high,
+                       std::string_view name) const {
+    require_indices(reinterpret_cast<const Index*>(rows.data()),
+                    rows.size() * sizeof(Row) / sizeof(Index), low, high, name);
+  }
+  /// Offsets of runs: from 0 to `end`, each run at least `shortest` long.
+  void require_offsets(const std::vector<Index>& offsets, std::size_t end, Index shortest,
+                       std::string_view name) const;
+  /// Codes of an enumeration or a flag below `end`.
+  template <class Row>
+  void require_codes(const std::vector<Row>& codes, int end, std::string_view name) const {
+    for (const Row code : codes) require(static_cast<int>(code) < end, name, "has unknown codes");
+  }
+
+ private:
+  void require_finite(const double* values, std::size_t count, std::string_view name) const;
+  void require_indices(const Index* values, std::size_t count, Index low, std::size_t high,
+                       std::string_view name) const;
+
+  hdf5::Reader file_;
+  std::string group_;
+  std::string mesh_id_;
+};
+
+/// VTK's numbers for cell types.
+inline constexpr std::uint8_t kVtkVertex = 1;
+inline constexpr std::uint8_t kVtkPolyLine = 4;
+inline constexpr std::uint8_t kVtkTriangle = 5;
+inline constexpr std::uint8_t kVtkPolygon = 7;
+inline constexpr std::uint8_t kVtkQuad = 9;
+
+}  // namespace strake

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace strake {
+
+/// XXH3-128 of a file's bytes as 32 hexadecimal digits: names contents, is no proof against malice.
+/// \throw InputError where the file cannot be read
+std::string digest_file(const std::filesystem::path& path);
+
+}  // namespace strake

@@ -1,0 +1,321 @@
+#include "common/artifact/hdf5_file.h"
+
+#include <hdf5.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace strake::hdf5 {
+namespace {
+
+static_assert(sizeof(hid_t) == sizeof(std::int64_t));
+
+constexpr std::int64_t kChunkBytes = 1 << 20;
+constexpr std::int64_t kMaxRows = std::int64_t{1} << 40;
+
+/// Closes an HDF5 object when it goes out of scope.
+class Handle {
+ public:
+  Handle(hid_t id, herr_t (*closer)(hid_t)) : id_(id), close_(closer) {}
+  Handle(Handle&& other) noexcept
+      : id_(std::exchange(other.id_, H5I_INVALID_HID)), close_(other.close_) {}
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  ~Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  [[nodiscard]] hid_t id() const { return id_; }
+  [[nodiscard]] bool valid() const { return id_ >= 0; }
+  /// Closes now and says whether that worked.
+  [[nodiscard]] bool close() { return close_(std::exchange(id_, H5I_INVALID_HID)) >= 0; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+/// Keeps HDF5 from printing its error stack: what went wrong goes into the exception instead.
+void silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
+/// The innermost message of HDF5's error stack, which names the cause.
+std::string innermost_reason() {
+  std::string text;
+  const auto keep_first = [](unsigned depth, const H5E_error2_t* error, void* data) -> herr_t {
+    if (depth == 0 && error->desc != nullptr) *static_cast<std::string*>(data) = error->desc;
+    return 0;
+  };
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_first, &text);
+  return text;
+}
+
+hid_t file_type(Scalar scalar) {
+  switch (scalar) {
+    case Scalar::u8:
+      return H5T_STD_U8LE;
+    case Scalar::i32:
+      return H5T_STD_I32LE;
+    case Scalar::i64:
+      return H5T_STD_I64LE;
+    case Scalar::f64:
+      return H5T_IEEE_F64LE;
+  }
+  return H5I_INVALID_HID;
+}
+
+hid_t memory_type(Scalar scalar) {
+  switch (scalar) {
+    case Scalar::u8:
+      return H5T_NATIVE_UINT8;
+    case Scalar::i32:
+      return H5T_NATIVE_INT32;
+    case Scalar::i64:
+      return H5T_NATIVE_INT64;
+    case Scalar::f64:
+      return H5T_NATIVE_DOUBLE;
+  }
+  return H5I_INVALID_HID;
+}
+
+std::int64_t size_of(Scalar scalar) {
+  switch (scalar) {
+    case Scalar::u8:
+      return 1;
+    case Scalar::i32:
+      return 4;
+    case Scalar::i64:
+    case Scalar::f64:
+      return 8;
+  }
+  return 0;
+}
+
+/// Dimensions of a dataset; rank -1 where it has more than two or cannot be asked.
+std::pair<int, std::array<hsize_t, 2>> dimensions(hid_t dataset) {
+  std::array<hsize_t, 2> sizes = {0, 1};
+  const Handle space(H5Dget_space(dataset), H5Sclose);
+  if (!space.valid()) return {-1, sizes};
+  const int rank = H5Sget_simple_extent_ndims(space.id());
+  if (rank < 1 || rank > 2) return {-1, sizes};
+  if (H5Sget_simple_extent_dims(space.id(), sizes.data(), nullptr) < 0) return {-1, sizes};
+  return {rank, sizes};
+}
+
+Handle text_type(std::size_t length) {
+  Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type.id(), std::max<std::size_t>(length, 1));
+  H5Tset_strpad(type.id(), H5T_STR_NULLPAD);
+  return type;
+}
+
+Handle open_dataset(std::int64_t file, const std::string& name) {
+  return {H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose};
+}
+
+}  // namespace
+
+File::~File() {
+  if (id_ >= 0) H5Fclose(id_);
+}
+
+void File::fail(const std::string& object, const std::string& what) const {
+  std::string message = shown_.string() + ": ";
+  if (!object.empty()) message += "'" + object + "' ";
+  message += what;
+  const std::string reason = innermost_reason();
+  throw InputError(reason.empty() ? message : message + " (HDF5: " + reason + ")");
+}
+
+Writer::Writer(std::filesystem::path path, std::filesystem::path shown)
+    : File(std::move(path), std::move(shown)) {
+  silence();
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  // Version 1.10 structures carry checksums of their own; times would make equal files differ.
+  H5Pset_libver_bounds(access.id(), H5F_LIBVER_V110, H5F_LIBVER_V110);
+  H5Pset_obj_track_times(creation.id(), false);
+  id_ = H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, creation.id(), access.id());
+  if (id_ < 0) fail("", "cannot be created");
+}
+
+void Writer::group(const std::string& name) {
+  const Handle creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation.id(), false);
+  Handle group(H5Gcreate2(id_, name.c_str(), H5P_DEFAULT, creation.id(), H5P_DEFAULT), H5Gclose);
+  if (!group.valid() || !group.close()) fail(name, "cannot be written");
+}
+
+void Writer::link(const std::string& existing, const std::string& name) {
+  if (H5Lcreate_hard(id_, existing.c_str(), id_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0) {
+    fail(name, "cannot be written");
+  }
+}
+
+void Writer::attribute(const std::string& object, const std::string& name,
+                       const std::string& ascii) {
+  const Handle type = text_type(ascii.size());
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  Handle attribute(H5Acreate_by_name(id_, object.c_str(), name.c_str(), type.id(), space.id(),
+                                     H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                   H5Aclose);
+  if (!attribute.valid() || H5Awrite(attribute.id(), type.id(), ascii.c_str()) < 0 ||
+      !attribute.close()) {
+    fail(name, "cannot be written");
+  }
+}
+
+void Writer::attribute(const std::string& object, const std::string& name,
+                       const std::vector<std::int64_t>& values) {
+  const hsize_t count = values.size();
+  const Handle space(
+      values.size() == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, nullptr), H5Sclose);
+  Handle attribute(H5Acreate_by_name(id_, object.c_str(), name.c_str(), H5T_STD_I64LE, space.id(),
+                                     H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                   H5Aclose);
+  if (!attribute.valid() || H5Awrite(attribute.id(), H5T_NATIVE_INT64, values.data()) < 0 ||
+      !attribute.close()) {
+    fail(name, "cannot be written");
+  }
+}
+
+void Writer::attribute(const std::string& object, const std::string& name, std::int64_t value) {
+  attribute(object, name, std::vector<std::int64_t>{value});
+}
+
+void Writer::write(const std::string& name, const void* data, Scalar scalar, const Shape& shape) {
+  const std::array<hsize_t, 2> sizes = {static_cast<hsize_t>(shape.rows),
+                                        static_cast<hsize_t>(shape.columns)};
+  const int rank = shape.is_table ? 2 : 1;
+  const Handle space(H5Screate_simple(rank, sizes.data(), nullptr), H5Sclose);
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation.id(), false);
+  if (shape.rows > 0) {  // an empty dataset can neither be chunked nor damaged
+    const std::int64_t rows_per_chunk = kChunkBytes / (shape.columns * size_of(scalar));
+    const std::array<hsize_t, 2> chunk = {
+        static_cast<hsize_t>(std::clamp<std::int64_t>(rows_per_chunk, 1, shape.rows)), sizes[1]};
+    H5Pset_chunk(creation.id(), rank, chunk.data());
+    H5Pset_fletcher32(creation.id());
+  }
+  Handle dataset(H5Dcreate2(id_, name.c_str(), file_type(scalar), space.id(), H5P_DEFAULT,
+                            creation.id(), H5P_DEFAULT),
+                 H5Dclose);
+  if (!dataset.valid()) fail(name, "cannot be written");
+  if (shape.rows > 0 &&
+      H5Dwrite(dataset.id(), memory_type(scalar), H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) {
+    fail(name, "cannot be written");
+  }
+  if (!dataset.close()) fail(name, "cannot be written");
+}
+
+void Writer::finish() {
+  if (H5Fclose(std::exchange(id_, -1)) < 0) fail("", "cannot be written");
+}
+
+Reader::Reader(const std::filesystem::path& path) : File(path, path) {
+  silence();
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) {
+    throw InputError(path.string() + ": no such file");
+  }
+  if (!std::filesystem::is_regular_file(status)) {
+    throw InputError(path.string() + ": is not a regular file");
+  }
+  id_ = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (id_ < 0) fail("", "is not an artifact of strake, or is damaged");
+}
+
+bool Reader::has(const std::string& name) const {
+  return H5Lexists(id_, name.c_str(), H5P_DEFAULT) > 0;
+}
+
+std::string Reader::text_attribute(const std::string& name) const {
+  const Handle attribute(H5Aopen(id_, name.c_str(), H5P_DEFAULT), H5Aclose);
+  if (!attribute.valid()) fail(name, "is missing: not an artifact of strake, or damaged");
+  const Handle type(H5Aget_type(attribute.id()), H5Tclose);
+  const Handle space(H5Aget_space(attribute.id()), H5Sclose);
+  if (!type.valid() || H5Tget_class(type.id()) != H5T_STRING ||
+      H5Tis_variable_str(type.id()) != 0 || H5Sget_simple_extent_npoints(space.id()) != 1) {
+    refuse(name, "is not a text");
+  }
+  std::string text(H5Tget_size(type.id()), '\0');
+  const Handle memory = text_type(text.size());
+  if (H5Aread(attribute.id(), memory.id(), text.data()) < 0) fail(name, "cannot be read");
+  text.erase(std::find(text.begin(), text.end(), '\0'), text.end());
+  return text;
+}
+
+std::int64_t Reader::integer_attribute(const std::string& name) const {
+  const Handle attribute(H5Aopen(id_, name.c_str(), H5P_DEFAULT), H5Aclose);
+  if (!attribute.valid()) fail(name, "is missing: not an artifact of strake, or damaged");
+  const Handle type(H5Aget_type(attribute.id()), H5Tclose);
+  const Handle space(H5Aget_space(attribute.id()), H5Sclose);
+  std::int64_t value = 0;
+  if (!type.valid() || H5Tget_class(type.id()) != H5T_INTEGER ||
+      H5Sget_simple_extent_npoints(space.id()) != 1) {
+    refuse(name, "is not an integer");
+  }
+  if (H5Aread(attribute.id(), H5T_NATIVE_INT64, &value) < 0) fail(name, "cannot be read");
+  return value;
+}
+
+std::vector<DatasetInfo> Reader::list(const std::string& group) const {
+  const Handle opened(H5Gopen2(id_, group.c_str(), H5P_DEFAULT), H5Gclose);
+  H5G_info_t info;
+  if (!opened.valid() || H5Gget_info(opened.id(), &info) < 0) fail(group, "cannot be read");
+  std::vector<DatasetInfo> datasets;
+  for (hsize_t i = 0; i < info.nlinks; ++i) {
+    const auto name_at = [&](char* text, std::size_t size) {
+      return H5Lget_name_by_idx(opened.id(), ".", H5_INDEX_NAME, H5_ITER_INC, i, text, size,
+                                H5P_DEFAULT);
+    };
+    const ssize_t length = name_at(nullptr, 0);
+    if (length < 0) fail(group, "cannot be read");
+    std::string name(static_cast<std::size_t>(length) + 1, '\0');
+    name_at(name.data(), name.size());
+    name.pop_back();
+    const Handle dataset = open_dataset(opened.id(), name);
+    if (!dataset.valid()) continue;
+    const auto [rank, sizes] = dimensions(dataset.id());
+    const Handle type(H5Dget_type(dataset.id()), H5Tclose);
+    for (const Scalar scalar : {Scalar::u8, Scalar::i32, Scalar::i64, Scalar::f64}) {
+      if (rank < 0 || H5Tequal(type.id(), file_type(scalar)) <= 0) continue;
+      datasets.push_back(
+          {name,
+           {static_cast<std::int64_t>(sizes[0]), static_cast<std::int64_t>(sizes[1]), rank == 2},
+           scalar});
+    }
+  }
+  return datasets;
+}
+
+Shape Reader::checked_shape(const std::string& name, Scalar scalar, bool is_table) const {
+  const Handle dataset = open_dataset(id_, name);
+  if (!dataset.valid()) fail(name, "is missing or damaged");
+  const Handle type(H5Dget_type(dataset.id()), H5Tclose);
+  if (H5Tequal(type.id(), file_type(scalar)) <= 0) refuse(name, "has a wrong number type");
+  const auto [rank, sizes] = dimensions(dataset.id());
+  if (rank != (is_table ? 2 : 1)) refuse(name, "has a wrong number of dimensions");
+  const Shape shape = {static_cast<std::int64_t>(sizes[0]), static_cast<std::int64_t>(sizes[1]),
+                       rank == 2};
+  if (shape.rows < 0 || shape.rows > kMaxRows || shape.columns < 1 || shape.columns > 64) {
+    refuse(name, "claims an impossible size");
+  }
+  // Chunks that were never written read as zeros without any error, so their absence is one.
+  const auto wanted = static_cast<hsize_t>(shape.rows * shape.columns * size_of(scalar));
+  if (H5Dget_storage_size(dataset.id()) < wanted) refuse(name, "is incomplete");
+  return shape;
+}
+
+void Reader::read(const std::string& name, void* data, Scalar scalar) const {
+  const Handle dataset = open_dataset(id_, name);
+  if (!dataset.valid() ||
+      H5Dread(dataset.id(), memory_type(scalar), H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) {
+    fail(name, "cannot be read; the file is damaged, make it again");
+  }
+}
+
+void Reader::refuse(const std::string& name, const std::string& what) const {
+  throw InputError(shown_.string() + ": '" + name + "' " + what);
+}
+
+}  // namespace strake::hdf5

@@ -1,0 +1,156 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "common/core/error.h"
+#include "common/core/types.h"
+
+/// Typed tables in HDF5 files. Its source is the only file of strake that includes hdf5.h.
+namespace strake::hdf5 {
+
+enum class Scalar { u8, i32, i64, f64 };
+
+/// Shape of a dataset: `columns` is 1 for one-dimensional data.
+struct Shape {
+  std::int64_t rows = 0;
+  std::int64_t columns = 1;
+  bool is_table = false;  ///< two-dimensional
+};
+
+struct DatasetInfo {
+  std::string name;  ///< within its group
+  Shape shape;
+  Scalar scalar = Scalar::f64;
+};
+
+/// How a row type of C++ is stored: its scalar and the number of them.
+template <class Row>
+struct RowTraits {
+  static_assert(sizeof(Row) == 1 && (std::is_enum_v<Row> || std::is_same_v<Row, std::uint8_t>));
+  static constexpr Scalar kScalar = Scalar::u8;
+  static constexpr std::int64_t kColumns = 1;
+};
+template <>
+struct RowTraits<std::int32_t> {
+  static constexpr Scalar kScalar = Scalar::i32;
+  static constexpr std::int64_t kColumns = 1;
+};
+template <>
+struct RowTraits<std::int64_t> {
+  static constexpr Scalar kScalar = Scalar::i64;
+  static constexpr std::int64_t kColumns = 1;
+};
+template <>
+struct RowTraits<double> {
+  static constexpr Scalar kScalar = Scalar::f64;
+  static constexpr std::int64_t kColumns = 1;
+};
+template <>
+struct RowTraits<Vec3> {
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
+  static constexpr Scalar kScalar = Scalar::f64;
+  static constexpr std::int64_t kColumns = 3;
+};
+template <class T, std::size_t N>
+struct RowTraits<std::array<T, N>> {
+  static constexpr Scalar kScalar = RowTraits<T>::kScalar;
+  static constexpr std::int64_t kColumns = N;
+};
+
+/// Whether rows of several scalars become a two-dimensional dataset or follow each other in one
+/// row.
+enum class Layout { table, flat };
+
+/// An open HDF5 file; closes what it opened.
+class File {
+ public:
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+  ~File();
+
+ protected:
+  File(std::filesystem::path path, std::filesystem::path shown) noexcept
+      : path_(std::move(path)), shown_(std::move(shown)) {}
+  /// Throws an InputError that names the file, the object and HDF5's own reason.
+  [[noreturn]] void fail(const std::string& object, const std::string& what) const;
+
+  std::filesystem::path path_;
+  std::filesystem::path shown_;  ///< as the user knows it
+  std::int64_t id_ = -1;         ///< an hid_t
+};
+
+/// Writes a new file: equal calls give equal bytes, each chunk carries a checksum.
+class Writer : public File {
+ public:
+  /// \param path   file to create or overwrite, usually a temporary one
+  /// \param shown  its name in messages
+  Writer(std::filesystem::path path, std::filesystem::path shown);
+
+  void group(const std::string& name);
+  /// Gives the dataset `existing` a second name, without a copy.
+  void link(const std::string& existing, const std::string& name);
+  /// Attributes of the group `object`, "/" for the root.
+  void attribute(const std::string& object, const std::string& name, const std::string& ascii);
+  void attribute(const std::string& object, const std::string& name,
+                 const std::vector<std::int64_t>& values);
+  void attribute(const std::string& object, const std::string& name, std::int64_t value);
+
+  template <class Row>
+  void dataset(const std::string& name, const std::vector<Row>& rows,
+               Layout layout = Layout::table) {
+    constexpr std::int64_t kColumns = RowTraits<Row>::kColumns;
+    const auto count = static_cast<std::int64_t>(rows.size());
+    const bool is_table = kColumns > 1 && layout == Layout::table;
+    write(name, rows.data(), RowTraits<Row>::kScalar,
+          is_table ? Shape{count, kColumns, true} : Shape{count * kColumns, 1, false});
+  }
+
+  /// Closes the file; the data are with the system after that. \throw InputError, e.g. disk full
+  void finish();
+
+ private:
+  void write(const std::string& name, const void* data, Scalar scalar, const Shape& shape);
+};
+
+/// Reads a file and trusts nothing in it.
+class Reader : public File {
+ public:
+  /// \throw InputError where the file is missing, no HDF5 file, or damaged
+  explicit Reader(const std::filesystem::path& path);
+
+  [[nodiscard]] bool has(const std::string& name) const;
+  [[nodiscard]] std::string text_attribute(const std::string& name) const;
+  [[nodiscard]] std::int64_t integer_attribute(const std::string& name) const;
+  /// The datasets of a group, by name.
+  [[nodiscard]] std::vector<DatasetInfo> list(const std::string& group) const;
+
+  /// The whole dataset. \throw InputError where type or shape are not those of `Row`
+  template <class Row>
+  [[nodiscard]] std::vector<Row> dataset(const std::string& name,
+                                         Layout layout = Layout::table) const {
+    constexpr std::int64_t kColumns = RowTraits<Row>::kColumns;
+    const bool is_table = kColumns > 1 && layout == Layout::table;
+    const Shape shape = checked_shape(name, RowTraits<Row>::kScalar, is_table);
+    const std::int64_t count = is_table ? shape.rows : shape.rows / kColumns;
+    if (is_table ? shape.columns != kColumns : shape.rows % kColumns != 0) {
+      refuse(name, "has rows of a wrong length");
+    }
+    std::vector<Row> rows(static_cast<std::size_t>(count));
+    read(name, rows.data(), RowTraits<Row>::kScalar);
+    return rows;
+  }
+
+  /// Throws an InputError that names this file and the dataset.
+  [[noreturn]] void refuse(const std::string& name, const std::string& what) const;
+
+ private:
+  [[nodiscard]] Shape checked_shape(const std::string& name, Scalar scalar, bool is_table) const;
+  void read(const std::string& name, void* data, Scalar scalar) const;
+};
+
+}  // namespace strake::hdf5
