@@ -1,0 +1,162 @@
+#include "stages/smooth/smooth.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "common/geometry/frames.h"
+#include "common/geometry/mesh_measures.h"
+#include "stages/smooth/cross_field.h"
+
+namespace strake {
+namespace {
+
+using Tensor = std::array<double, 6>;
+
+Mat3 to_matrix(const Tensor& t) {
+  Mat3 m;
+  m << t[0], t[1], t[2], t[1], t[3], t[4], t[2], t[4], t[5];
+  return m;
+}
+
+/// Principal frame of a tensor in the tangent plane of `normal`: the realignment of [MK04]
+/// section 2, as a projection. The larger eigenvalue belongs to the minimum direction (normal
+/// cycles swap the two).
+void set_frame(const Tensor& tensor, const Vec3& normal, Index w, PrincipalField& field) {
+  const TangentFrame frame = tangent_frame(normal);
+  const Mat3 t = to_matrix(tensor);
+  const Vec3 tx = t * frame.x;
+  const Vec3 ty = t * frame.y;
+  const Eigen2 eigen = eigen_symmetric2(frame.x.dot(tx), frame.x.dot(ty), frame.y.dot(ty));
+  field.t_min[w] = frame.world_from_tangent(eigen.direction_of_larger).normalized();
+  field.k_max[w] = eigen.larger;
+  field.k_min[w] = eigen.smaller;
+}
+
+void set_frames(const std::vector<Tensor>& tensors, PrincipalField& field) {
+  tbb::parallel_for(Index{0}, static_cast<Index>(tensors.size()),
+                    [&](Index w) { set_frame(tensors[w], field.normal[w], w, field); });
+}
+
+/// Confidence of faces ([MK04] equation 1) and wedges (mean over their faces).
+void set_confidence(const TriMesh& mesh, const std::vector<Vec3>& normals, PrincipalField& field) {
+  field.face_confidence.assign(mesh.face_count(), 0);
+  tbb::parallel_for(Index{0}, mesh.face_count(), [&](Index f) {
+    std::array<Vec3, 3> d;
+    for (int i = 0; i < 3; ++i) {
+      const Index w = mesh.face_wedges[f][i];
+      d[i] = rotate_between(field.normal[w], normals[f], field.t_min[w]);
+    }
+    const double least = std::min({std::abs(d[0].dot(d[1])), std::abs(d[1].dot(d[2])),
+                                   std::abs(d[2].dot(d[0]))});
+    field.face_confidence[f] = std::clamp(least, 0.0, 1.0);
+  });
+  std::vector<double> sum(mesh.wedge_count(), 0);
+  std::vector<Index> count(mesh.wedge_count(), 0);
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    sum[mesh.wedge_of(h)] += field.face_confidence[TriMesh::face_of(h)];
+    ++count[mesh.wedge_of(h)];
+  }
+  for (Index w = 0; w < mesh.wedge_count(); ++w) sum[w] /= std::max(count[w], Index{1});
+  field.wedge_confidence = std::move(sum);
+}
+
+/// Neighbours of every wedge within its smooth piece of surface, in compressed rows.
+struct WedgeGraph {
+  std::vector<Index> offsets;
+  std::vector<Index> neighbours;
+};
+
+WedgeGraph wedge_graph(const TriMesh& mesh) {
+  WedgeGraph graph;
+  graph.offsets.assign(mesh.wedge_count() + 1, 0);
+  const auto each = [&](auto&& use) {
+    for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+      const Index i = mesh.wedge_of(h);
+      const Index j = mesh.wedge_of(TriMesh::next(h));
+      use(i, j);
+      if (mesh.is_barrier(h)) use(j, i);  // the opposite half-edge belongs to other wedges
+    }
+  };
+  each([&](Index i, Index) { ++graph.offsets[i + 1]; });
+  for (Index w = 0; w < mesh.wedge_count(); ++w) graph.offsets[w + 1] += graph.offsets[w];
+  graph.neighbours.resize(graph.offsets.back());
+  std::vector<Index> fill(graph.offsets.begin(), graph.offsets.end() - 1);
+  each([&](Index i, Index j) { graph.neighbours[fill[i]++] = j; });
+  return graph;
+}
+
+/// One step of the operator of [MK04] section 4.1. Differs: neighbours' tensors are turned into
+/// the tangent plane of the wedge first, so that bending does not leak into the normal direction.
+std::vector<Tensor> smoothing_step(const WedgeGraph& graph, const PrincipalField& field,
+                                   const std::vector<Tensor>& tensors) {
+  std::vector<Tensor> next(tensors.size());
+  tbb::parallel_for(Index{0}, static_cast<Index>(tensors.size()), [&](Index w) {
+    Mat3 sum = Mat3::Zero();
+    double weights = 0;
+    for (Index at = graph.offsets[w]; at < graph.offsets[w + 1]; ++at) {
+      const Index j = graph.neighbours[at];
+      const double confidence = field.wedge_confidence[j];
+      Mat3 turn;
+      for (int axis = 0; axis < 3; ++axis) {
+        turn.col(axis) = rotate_between(field.normal[j], field.normal[w], Vec3::Unit(axis));
+      }
+      sum += confidence * (turn * to_matrix(tensors[j]) * turn.transpose());
+      weights += confidence;
+    }
+    next[w] = tensors[w];
+    if (!(weights > 0)) return;
+    const double keep = field.wedge_confidence[w] / 2;
+    const Mat3 mixed = keep * to_matrix(tensors[w]) + (1 - keep) / weights * sum;
+    next[w] = {mixed(0, 0), mixed(0, 1), mixed(0, 2), mixed(1, 1), mixed(1, 2), mixed(2, 2)};
+  });
+  return next;
+}
+
+}  // namespace
+
+SmoothResult smooth_tensors(const TriMesh& mesh, const TensorField& tensor,
+                            const SmoothOptions& options, Observer& observer) {
+  SmoothResult result;
+  PrincipalField& field = result.field;
+  const auto count = static_cast<std::size_t>(mesh.wedge_count());
+  field.mesh_id = mesh.id;
+  field.normal = tensor.normal;
+  field.t_min.resize(count);
+  field.k_min.resize(count);
+  field.k_max.resize(count);
+
+  const std::vector<Vec3> normals = face_normals(mesh);
+  set_frames(tensor.tensor, field);
+  set_confidence(mesh, normals, field);
+  double before = 0;
+  for (const double c : field.face_confidence) before += c;
+
+  const WedgeGraph graph = wedge_graph(mesh);
+  std::vector<Tensor> tensors = tensor.tensor;
+  for (std::int64_t step = 0; step < options.iterations; ++step) {
+    tensors = smoothing_step(graph, field, tensors);
+    observer.report("smoothing curvature tensors",
+                    double(step + 1) / static_cast<double>(options.iterations + 1));
+  }
+  set_frames(tensors, field);
+  set_confidence(mesh, normals, field);
+  double after = 0;
+  for (const double c : field.face_confidence) after += c;
+
+  const double faces = std::max<double>(1, mesh.face_count());
+  result.report.set("smooth.iterations", options.iterations);
+  result.report.set("smooth.mean_confidence_before", before / faces);
+  result.report.set("smooth.mean_confidence_after", after / faces);
+  if (options.extension == "cross") {
+    observer.report("extending the cross field", 0);
+    const Index iterations =
+        extend_cross_field(mesh, wedge_areas(mesh), options.field_stiffness, field);
+    result.report.set("smooth.solver_iterations", static_cast<std::int64_t>(iterations));
+  } else {
+    field.cross = field.t_min;
+  }
+  return result;
+}
+
+}  // namespace strake
