@@ -1,0 +1,152 @@
+#include "common/geometry/poly_topology/face_shape.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace strake {
+namespace {
+
+constexpr double kConcaveTolerance = 1e-9;
+constexpr std::size_t kLargePolygon = 256;
+
+double angle_at(const Vec3& apex, const Vec3& p, const Vec3& q) {
+  const Vec3 a = p - apex;
+  const Vec3 b = q - apex;
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+double smallest_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return std::min({angle_at(a, b, c), angle_at(b, c, a), angle_at(c, a, b)});
+}
+
+/// Cuts ears off one polygon.
+class EarCutter {
+ public:
+  EarCutter(std::span<const Vec3> positions, std::span<const Index> face)
+      : positions_(positions),
+        normal_(newell_normal(positions, face)),
+        ring_(face.begin(), face.end()),
+        test_empty_(face.size() <= kLargePolygon) {}
+
+  void cut(std::vector<std::array<Index, 3>>& triangles) {
+    while (ring_.size() > 3) {
+      const std::size_t ear = best_ear();
+      triangles.push_back({before(ear), ring_[ear], after(ear)});
+      ring_.erase(ring_.begin() + static_cast<std::ptrdiff_t>(ear));
+    }
+    triangles.push_back({ring_[0], ring_[1], ring_[2]});
+  }
+
+ private:
+  [[nodiscard]] double area_along_normal(Index a, Index b, Index c) const {
+    return (positions_[b] - positions_[a]).cross(positions_[c] - positions_[a]).dot(normal_);
+  }
+  [[nodiscard]] Index before(std::size_t i) const {
+    return ring_[(i + ring_.size() - 1) % ring_.size()];
+  }
+  [[nodiscard]] Index after(std::size_t i) const { return ring_[(i + 1) % ring_.size()]; }
+
+  [[nodiscard]] bool is_empty(Index a, Index b, Index c) const {
+    return std::none_of(ring_.begin(), ring_.end(), [&](Index q) {
+      return q != a && q != b && q != c && area_along_normal(a, b, q) >= 0 &&
+             area_along_normal(b, c, q) >= 0 && area_along_normal(c, a, q) >= 0;
+    });
+  }
+
+  [[nodiscard]] std::size_t best_ear() const {
+    double best = -1;
+    std::size_t best_at = 1;  // where no ear is valid the polygon crosses itself: go on as a fan
+    for (std::size_t i = 0; i < ring_.size(); ++i) {
+      const Index a = before(i);
+      const Index b = ring_[i];
+      const Index c = after(i);
+      if (area_along_normal(a, b, c) <= 0) continue;
+      const double shape = smallest_angle(positions_[a], positions_[b], positions_[c]);
+      if (shape <= best || (test_empty_ && !is_empty(a, b, c))) continue;
+      best = shape;
+      best_at = i;
+      if (!test_empty_) break;
+    }
+    return best_at;
+  }
+
+  std::span<const Vec3> positions_;
+  Vec3 normal_;
+  std::vector<Index> ring_;
+  bool test_empty_;
+};
+
+void triangulate_quad(std::span<const Vec3> positions, std::span<const Index> c,
+                      std::vector<std::array<Index, 3>>& triangles) {
+  const Vec3 normal = newell_normal(positions, c);
+  const auto faces_along = [&](int i, int j, int k) {
+    const Vec3& p = positions[c[i]];
+    return (positions[c[j]] - p).cross(positions[c[k]] - p).dot(normal) > 0;
+  };
+  const bool valid_02 = faces_along(0, 1, 2) && faces_along(0, 2, 3);
+  const bool valid_13 = faces_along(1, 2, 3) && faces_along(1, 3, 0);
+  const bool shorter_02 = (positions[c[0]] - positions[c[2]]).squaredNorm() <=
+                          (positions[c[1]] - positions[c[3]]).squaredNorm();
+  if (valid_02 != valid_13 ? valid_02 : shorter_02) {
+    triangles.push_back({c[0], c[1], c[2]});
+    triangles.push_back({c[0], c[2], c[3]});
+  } else {
+    triangles.push_back({c[1], c[2], c[3]});
+    triangles.push_back({c[1], c[3], c[0]});
+  }
+}
+
+}  // namespace
+
+Vec3 newell_normal(std::span<const Vec3> positions, std::span<const Index> face) {
+  Vec3 normal = Vec3::Zero();
+  const Vec3& origin = positions[face[0]];
+  for (std::size_t i = 1; i + 1 < face.size(); ++i) {
+    normal += (positions[face[i]] - origin).cross(positions[face[i + 1]] - origin);
+  }
+  return normal;
+}
+
+bool is_concave_face(std::span<const Vec3> positions, std::span<const Index> face) {
+  if (face.size() < 4) return false;
+  const Vec3 normal = newell_normal(positions, face).normalized();
+  const std::size_t n = face.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3& p = positions[face[i]];
+    const Vec3 ahead = positions[face[(i + 1) % n]] - p;
+    const Vec3 back = positions[face[(i + n - 1) % n]] - p;
+    if (ahead.cross(back).dot(normal) < -kConcaveTolerance * ahead.norm() * back.norm()) {
+      return true;
+    }
+  }
+  return false;
+}
+
+void triangulate_face(std::span<const Vec3> positions, std::span<const Index> face,
+                      std::vector<std::array<Index, 3>>& triangles) {
+  if (face.size() < 3) return;
+  if (face.size() == 3) {
+    triangles.push_back({face[0], face[1], face[2]});
+  } else if (face.size() == 4) {
+    triangulate_quad(positions, face, triangles);
+  } else {
+    EarCutter(positions, face).cut(triangles);
+  }
+}
+
+FaceTriangles triangulate_faces(const PolyMesh& mesh) {
+  FaceTriangles result;
+  const std::size_t faces = static_cast<std::size_t>(mesh.face_count());
+  const std::size_t expected =
+      mesh.corners.size() > 2 * faces ? mesh.corners.size() - 2 * faces : 0;
+  result.corners.reserve(expected);
+  result.face.reserve(expected);
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    triangulate_face(mesh.positions, mesh.face(f), result.corners);
+    result.face.resize(result.corners.size(), f);
+  }
+  return result;
+}
+
+}  // namespace strake

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "common/core/poly_mesh.h"
+#include "common/core/types.h"
+
+namespace strake {
+
+/// The vector area of a polygon times two (Newell): along its normal, counter-clockwise seen from
+/// its tip. Zero for a polygon without area.
+/// \param positions  any length unit
+/// \param face       at least 3 vertices
+Vec3 newell_normal(std::span<const Vec3> positions, std::span<const Index> face);
+
+/// Whether a corner of the polygon turns against its Newell normal: by more than 1e-9 of the
+/// product of the two edge lengths at the corner.
+bool is_concave_face(std::span<const Vec3> positions, std::span<const Index> face);
+
+/// Splits a polygon into `face.size() - 2` triangles with its orientation, for measuring and
+/// drawing.
+///
+/// A quad is split along the diagonal whose two triangles both face along its normal, the shorter
+/// one where both or neither do. A larger polygon is cut ear by ear, the best shaped ear first; one
+/// that crosses itself ends as a fan. Polygons with fewer than 3 corners give nothing.
+/// \param triangles  appended to
+/// Cost O(n^3) for n corners (a handful); O(n^2) beyond 256 corners, without the emptiness test.
+void triangulate_face(std::span<const Vec3> positions, std::span<const Index> face,
+                      std::vector<std::array<Index, 3>>& triangles);
+
+/// A polygon mesh as triangles, each with the face it is part of.
+struct FaceTriangles {
+  std::vector<std::array<Index, 3>> corners;  ///< [T] vertices of the mesh
+  std::vector<Index> face;                    ///< [T] ascending
+};
+
+/// Splits every face of a mesh by `triangulate_face`.
+FaceTriangles triangulate_faces(const PolyMesh& mesh);
+
+}  // namespace strake

@@ -1,0 +1,170 @@
+#include "common/geometry/surface_distance/surface_distance.h"
+
+#include <embree3/rtcore.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "common/core/error.h"
+
+namespace strake {
+namespace {
+
+// Coordinates in the hierarchy's frame are rounded by at most 2^-24 of their size, of the query
+// point and of the triangle, on three axes, and the hierarchy computes in floats: ten times that is
+// a safe margin.
+constexpr double kFloatMargin = 1e-6;
+
+ClosestPoint closest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 ab = b - a;
+  const double length2 = ab.squaredNorm();
+  const double t = length2 > 0 ? std::clamp((p - a).dot(ab) / length2, 0.0, 1.0) : 0.0;
+  return {kNone, (p - a - t * ab).norm(), {1 - t, t, 0}};
+}
+
+/// What a query carries through the hierarchy.
+struct Search {
+  const SurfaceDistance* surface;
+  const std::function<bool(Index)>* accept;
+  Vec3 point;
+  double scale;
+  double margin;
+  ClosestPoint best;
+};
+
+bool visit_triangle(RTCPointQueryFunctionArguments* arguments) {
+  auto& search = *static_cast<Search*>(arguments->userPtr);
+  const auto triangle = static_cast<Index>(arguments->primID);
+  if (search.accept != nullptr && !(*search.accept)(triangle)) return false;
+  const auto& corners = search.surface->triangles()[triangle];
+  const auto& positions = search.surface->positions();
+  ClosestPoint found = closest_point_on_triangle(search.point, positions[corners[0]],
+                                                 positions[corners[1]], positions[corners[2]]);
+  found.triangle = triangle;
+  const bool is_nearer = found.distance < search.best.distance ||
+                         (found.distance == search.best.distance &&
+                          (search.best.triangle == kNone || triangle < search.best.triangle));
+  if (!is_nearer) return false;
+  search.best = found;
+  arguments->query->radius =
+      static_cast<float>((found.distance * search.scale + search.margin) * (1 + 1e-6));
+  return true;
+}
+
+}  // namespace
+
+struct SurfaceDistance::Hierarchy {
+  RTCDevice device;
+  RTCScene scene;
+
+  Hierarchy() : device(rtcNewDevice(nullptr)), scene(nullptr) {
+    if (device == nullptr) {
+      throw Error(ExitCode::internal, "the spatial index (Embree) does not start");
+    }
+    scene = rtcNewScene(device);
+  }
+  Hierarchy(const Hierarchy&) = delete;
+  Hierarchy& operator=(const Hierarchy&) = delete;
+  ~Hierarchy() {
+    rtcReleaseScene(scene);
+    rtcReleaseDevice(device);
+  }
+};
+
+ClosestPoint closest_point_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 normal = (b - a).cross(c - a);
+  const double area2 = normal.squaredNorm();
+  if (area2 > 0) {
+    const double u = normal.dot((b - p).cross(c - p)) / area2;
+    const double v = normal.dot((c - p).cross(a - p)) / area2;
+    const double w = 1 - u - v;
+    if (u >= 0 && v >= 0 && w >= 0) {
+      return {kNone, std::abs((p - a).dot(normal)) / std::sqrt(area2), {u, v, w}};
+    }
+  }
+  const ClosestPoint on_ab = closest_on_segment(p, a, b);
+  const ClosestPoint on_bc = closest_on_segment(p, b, c);
+  const ClosestPoint on_ca = closest_on_segment(p, c, a);
+  ClosestPoint best = on_ab;
+  if (on_bc.distance < best.distance) {
+    best = {kNone, on_bc.distance, {0, on_bc.barycentric[0], on_bc.barycentric[1]}};
+  }
+  if (on_ca.distance < best.distance) {
+    best = {kNone, on_ca.distance, {on_ca.barycentric[1], 0, on_ca.barycentric[0]}};
+  }
+  return best;
+}
+
+SurfaceDistance::SurfaceDistance(std::vector<Vec3> positions,
+                                 std::vector<std::array<Index, 3>> triangles)
+    : positions_(std::move(positions)),
+      triangles_(std::move(triangles)),
+      hierarchy_(std::make_unique<Hierarchy>()) {
+  if (triangles_.empty()) throw PreconditionError("the surface to measure against has no triangle");
+  Eigen::AlignedBox3d box;
+  for (const auto& triangle : triangles_) {
+    for (const Index v : triangle) box.extend(positions_[v]);
+  }
+  centre_ = box.center();
+  const double half_size = box.sizes().maxCoeff() / 2;
+  scale_ = half_size > 0 ? 1 / half_size : 1;
+
+  RTCGeometry geometry = rtcNewGeometry(hierarchy_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+                                                               RTC_FORMAT_FLOAT3, 3 * sizeof(float),
+                                                               positions_.size()));
+  for (std::size_t v = 0; v < positions_.size(); ++v) {
+    const Vec3 p = scale_ * (positions_[v] - centre_);
+    for (int k = 0; k < 3; ++k) vertices[3 * v + k] = static_cast<float>(p[k]);
+  }
+  auto* indices = static_cast<unsigned*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                              3 * sizeof(unsigned), triangles_.size()));
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    for (int k = 0; k < 3; ++k) indices[3 * t + k] = static_cast<unsigned>(triangles_[t][k]);
+  }
+  rtcSetGeometryPointQueryFunction(geometry, visit_triangle);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(hierarchy_->scene, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(hierarchy_->scene);
+}
+
+SurfaceDistance::~SurfaceDistance() = default;
+
+ClosestPoint SurfaceDistance::closest(const Vec3& p) const {
+  return query(p, std::numeric_limits<double>::infinity(), nullptr);
+}
+
+ClosestPoint SurfaceDistance::closest_if(const Vec3& p, double reach,
+                                         const std::function<bool(Index)>& accept) const {
+  return query(p, reach, &accept);
+}
+
+ClosestPoint SurfaceDistance::query(const Vec3& p, double reach,
+                                    const std::function<bool(Index)>* accept) const {
+  const Vec3 local = scale_ * (p - centre_);
+  Search search{this, accept, p, scale_, 0, {}};
+  search.margin = kFloatMargin * std::max(1.0, local.cwiseAbs().maxCoeff());
+  search.best.distance = reach;
+
+  RTCPointQuery query = {};
+  query.x = static_cast<float>(local.x());
+  query.y = static_cast<float>(local.y());
+  query.z = static_cast<float>(local.z());
+  query.radius = static_cast<float>((reach * scale_ + search.margin) * (1 + 1e-6));
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(hierarchy_->scene, &query, &context, nullptr, &search);
+  if (search.best.triangle == kNone) search.best.distance = std::numeric_limits<double>::infinity();
+  return search.best;
+}
+
+Vec3 SurfaceDistance::point(const ClosestPoint& at) const {
+  const auto& corners = triangles_[at.triangle];
+  return at.barycentric[0] * positions_[corners[0]] + at.barycentric[1] * positions_[corners[1]] +
+         at.barycentric[2] * positions_[corners[2]];
+}
+
+}  // namespace strake

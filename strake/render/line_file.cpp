@@ -1,0 +1,63 @@
+#include "strake/render/line_file.h"
+
+#include <fstream>
+#include <sstream>
+
+#include "common/core/error.h"
+
+namespace strake {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path, std::size_t line,
+                       const std::string& what) {
+  throw InputError(path.string() + ", line " + std::to_string(line) + ": " + what);
+}
+
+Index point_index(const std::string& word, const Polylines& lines) {
+  std::size_t used = 0;
+  const long long number = std::stoll(word, &used);
+  const auto count = static_cast<long long>(lines.positions.size());
+  const long long index = number < 0 ? count + number : number - 1;
+  if (index < 0 || index >= count) throw std::out_of_range(word);
+  return static_cast<Index>(index);
+}
+
+}  // namespace
+
+Polylines read_polylines(const std::filesystem::path& path) {
+  std::ifstream in(path);
+  if (!in) throw InputError(path.string() + ": cannot open the line file; check the name");
+  Polylines result;
+  std::string text;
+  std::string group;
+  for (std::size_t number = 1; std::getline(in, text); ++number) {
+    std::istringstream record(text);
+    std::string word;
+    record >> word;
+    if (word == "v") {
+      Vec3 p;
+      if (!(record >> p.x() >> p.y() >> p.z())) fail(path, number, "a vertex needs 3 numbers");
+      result.positions.push_back(p);
+    } else if (word == "g") {
+      group.clear();
+      record >> group;
+    } else if (word == "l") {
+      Polylines::Line line{{}, group};
+      while (record >> word) {
+        try {
+          line.points.push_back(point_index(word, result));
+        } catch (const std::logic_error&) {
+          fail(path, number, "'" + word + "' is not a vertex read before");
+        }
+      }
+      if (line.points.size() < 2) fail(path, number, "a line needs at least 2 vertices");
+      result.lines.push_back(std::move(line));
+    }
+  }
+  if (result.lines.empty()) {
+    throw InputError(path.string() + ": no 'l' records; expected an OBJ file with polylines");
+  }
+  return result;
+}
+
+}  // namespace strake

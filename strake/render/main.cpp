@@ -1,0 +1,133 @@
+// Draws a polygon mesh into a PNG file, without a display.
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/artifact/meshfile/mesh_reader.h"
+#include "common/core/error.h"
+#include "strake/render/camera.h"
+#include "strake/render/draw.h"
+#include "strake/render/image.h"
+#include "strake/render/line_file.h"
+#include "strake/render/scene.h"
+
+namespace strake {
+namespace {
+
+struct Arguments {
+  std::string mesh;
+  std::string output;
+  std::string lines;
+  std::string size = "1200x900";
+  std::string target;
+  std::string up = "y";
+  double line_width = 2.5;
+  bool flat = false;
+  View view;
+  DrawOptions draw;
+};
+
+void parse(CLI::App& app, Arguments& arguments) {
+  app.add_option("mesh", arguments.mesh, "Mesh file: OBJ, PLY, OFF or STL")->required();
+  app.add_option("-o,--output", arguments.output, "PNG file to write")->required();
+  app.add_option("--size", arguments.size, "Picture size in pixels, WIDTHxHEIGHT")
+      ->capture_default_str();
+  app.add_option("--azimuth", arguments.view.azimuth_deg, "Viewer's turn around the up axis, deg")
+      ->capture_default_str();
+  app.add_option("--elevation", arguments.view.elevation_deg, "Viewer above the horizon, deg")
+      ->check(CLI::Range(-90.0, 90.0))
+      ->capture_default_str();
+  app.add_option("--zoom", arguments.view.zoom, "Magnification; 1 shows the whole model")
+      ->check(CLI::Range(1e-3, 1e6))
+      ->capture_default_str();
+  app.add_option("--target", arguments.target,
+                 "Point in the middle of the picture, X,Y,Z in model units (default: the model's)");
+  app.add_option("--up", arguments.up, "Up axis")
+      ->check(CLI::IsMember({"y", "z"}))
+      ->capture_default_str();
+  app.add_flag("--edges", arguments.draw.edges, "Draw the edges of the polygons");
+  app.add_option("--edge-width", arguments.draw.edge_width, "Width of the edges, pixels")
+      ->check(CLI::Range(0.1, 50.0))
+      ->capture_default_str();
+  app.add_option("--lines", arguments.lines,
+                 "OBJ file with 'l' polylines to draw on the surface: group min blue, max red");
+  app.add_option("--line-width", arguments.line_width, "Width of the polylines, pixels")
+      ->check(CLI::Range(0.1, 50.0))
+      ->capture_default_str();
+  app.add_flag("--flat", arguments.flat, "One normal per face, no smooth shading");
+  app.add_option("--samples", arguments.draw.samples, "Rays per pixel and axis")
+      ->check(CLI::Range(1, 16))
+      ->capture_default_str();
+}
+
+void interpret(Arguments& arguments) {
+  char rest = 0;
+  DrawOptions& size = arguments.draw;
+  constexpr int kLargest = 16384;
+  if (std::sscanf(arguments.size.c_str(), "%dx%d%c", &size.width, &size.height, &rest) != 2 ||
+      size.width < 1 || size.height < 1 || size.width > kLargest || size.height > kLargest) {
+    throw UsageError("--size '" + arguments.size + "': expected WIDTHxHEIGHT, each 1 to 16384");
+  }
+  arguments.view.z_up = arguments.up == "z";
+  if (arguments.target.empty()) return;
+  Vec3 p;
+  if (std::sscanf(arguments.target.c_str(), "%lf,%lf,%lf%c", &p.x(), &p.y(), &p.z(), &rest) != 3 ||
+      !p.allFinite()) {
+    throw UsageError("--target '" + arguments.target + "': expected three numbers, X,Y,Z");
+  }
+  arguments.view.target = p;
+}
+
+void run(Arguments arguments) {
+  interpret(arguments);
+  ReadReport read;
+  PolyMesh mesh = read_mesh(arguments.mesh, read);
+  for (const std::string& warning : read.warnings()) {
+    std::fprintf(stderr, "strake-render: %s\n", warning.c_str());
+  }
+  Scene scene(std::move(mesh), arguments.flat);
+  View view = arguments.view;
+  if (view.target) view.target = scene.place(*view.target);
+  std::vector<Vec3> used;
+  for (const Index v : scene.mesh().corners) used.push_back(scene.mesh().positions[v]);
+  const Camera camera(used, view, arguments.draw.width, arguments.draw.height);
+
+  std::vector<std::string> groups;
+  if (!arguments.lines.empty()) {
+    const Polylines lines = read_polylines(arguments.lines);
+    for (const Polylines::Line& line : lines.lines) groups.push_back(line.group);
+    const double pixel = camera.pixel_size(view.target.value_or(Vec3::Zero()));
+    scene.add_lines(lines, arguments.line_width / 2 * pixel);
+  }
+  scene.commit();
+  write_png(draw(scene, camera, groups, arguments.draw), arguments.output);
+}
+
+}  // namespace
+}  // namespace strake
+
+int main(int argc, char** argv) {
+  CLI::App app("Draws a polygon mesh into a PNG file.", "strake-render");
+  strake::Arguments arguments;
+  strake::parse(app, arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(strake::ExitCode::usage);
+  }
+  try {
+    strake::run(arguments);
+  } catch (const strake::Error& error) {
+    std::fprintf(stderr, "strake-render: %s\n", error.what());
+    return static_cast<int>(error.code());
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "strake-render: internal error: %s\n", error.what());
+    return static_cast<int>(strake::ExitCode::internal);
+  }
+  return 0;
+}
