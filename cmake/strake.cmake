@@ -3,7 +3,9 @@
 add_library(strake_flags INTERFACE)
 target_include_directories(strake_flags INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(strake_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
-                       -Wno-sign-conversion -Werror)
+                       -Wno-sign-conversion -Werror
+                       # GCC 12 sees overlaps in string concatenation that are not there (PR 105651).
+                       $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 
 # strake_library(NAME SOURCES... [DEPENDS targets...]): a static library strake_NAME.
 function(strake_library name)
@@ -19,6 +21,16 @@ function(strake_program name)
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_DEPENDS} strake_flags)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+endfunction()
+
+# strake_stage(NAME): the description and the program of stages/NAME, around the library strake_NAME.
+function(strake_stage name)
+  if(NOT TARGET strake_${name})
+    return()
+  endif()
+  set(folder ${CMAKE_CURRENT_SOURCE_DIR}/${name})
+  strake_library(${name}_stage SOURCES ${folder}/stage.cpp DEPENDS strake_${name} strake_stage)
+  strake_program(strake-${name} SOURCES ${folder}/main.cpp DEPENDS strake_${name}_stage)
 endfunction()
 
 # strake_test(NAME SOURCES... [DEPENDS targets...]): a GoogleTest executable, one ctest entry a case.

@@ -1,0 +1,79 @@
+#include "common/stage/console.h"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+#include "common/core/error.h"
+
+namespace strake {
+namespace {
+
+volatile sig_atomic_t interrupt_arrived = 0;
+
+void on_interrupt(int /*signal*/) { interrupt_arrived = 1; }
+
+}  // namespace
+
+void catch_interrupts() {
+  struct sigaction action = {};
+  action.sa_handler = on_interrupt;
+  sigemptyset(&action.sa_mask);
+  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+ConsoleObserver::ConsoleObserver(Verbosity verbosity)
+    : verbosity_(verbosity), terminal_(isatty(STDERR_FILENO) != 0) {}
+
+ConsoleObserver::~ConsoleObserver() { clear_bar(); }
+
+void ConsoleObserver::begin(std::string label) {
+  clear_bar();
+  label_ = std::move(label);
+  phase_.clear();
+}
+
+void ConsoleObserver::report(std::string_view phase, double fraction) {
+  if (interrupt_arrived != 0) throw Interrupted();
+  if (verbosity_ == Verbosity::quiet) return;
+  using namespace std::chrono_literals;
+  const auto now = std::chrono::steady_clock::now();
+  const bool new_phase = phase != phase_;
+  if (!new_phase && now - last_shown_ < (terminal_ ? 100ms : 10s)) return;
+  phase_ = phase;
+  last_shown_ = now;
+  const double share = std::clamp(fraction, 0.0, 1.0);
+  if (terminal_) {
+    constexpr int kWidth = 30;
+    const int full = static_cast<int>(share * kWidth);
+    fmt::print(stderr, "\r\033[K{:9} [{:=<{}}{:{}}] {:3.0f} % {}", label_, "", full, "",
+               kWidth - full, 100 * share, phase);
+    bar_visible_ = true;
+  } else if (new_phase) {
+    fmt::print(stderr, "{}: {}\n", label_, phase);
+  } else {
+    fmt::print(stderr, "{}: {} {:.0f} %\n", label_, phase, 100 * share);
+  }
+  std::fflush(stderr);
+}
+
+void ConsoleObserver::say(const std::string& line) {
+  if (verbosity_ == Verbosity::quiet) return;
+  clear_bar();
+  fmt::print(stderr, "{}\n", line);
+}
+
+void ConsoleObserver::clear_bar() {
+  if (!bar_visible_) return;
+  fmt::print(stderr, "\r\033[K");
+  std::fflush(stderr);
+  bar_visible_ = false;
+}
+
+}  // namespace strake

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <string_view>
+
+#include "common/core/observer.h"
+
+namespace strake {
+
+/// How much a program says on stderr.
+enum class Verbosity { quiet, normal, verbose };
+
+/// From now on SIGINT and SIGTERM ask the running stage to stop; a second one ends the program.
+void catch_interrupts();
+
+/// Shows progress on stderr: a bar on a terminal, a line per phase otherwise.
+/// Cancels the run with Interrupted once a caught signal has arrived.
+class ConsoleObserver : public Observer {
+ public:
+  explicit ConsoleObserver(Verbosity verbosity);
+  ConsoleObserver(const ConsoleObserver&) = delete;
+  ConsoleObserver& operator=(const ConsoleObserver&) = delete;
+  ~ConsoleObserver() override;
+
+  /// What the next phases belong to: the name of a stage.
+  void begin(std::string label);
+  void report(std::string_view phase, double fraction) override;
+  /// A line for the user, above the bar; nothing if quiet.
+  void say(const std::string& line);
+
+ private:
+  void clear_bar();
+
+  Verbosity verbosity_;
+  bool terminal_;
+  bool bar_visible_ = false;
+  std::string label_;
+  std::string phase_;
+  std::chrono::steady_clock::time_point last_shown_{};
+};
+
+}  // namespace strake

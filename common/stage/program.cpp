@@ -1,0 +1,212 @@
+#include "common/stage/program.h"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <map>
+#include <new>
+
+#include "common/artifact/digest.h"
+#include "common/core/error.h"
+
+namespace strake {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_flag(const Option& option) { return std::holds_alternative<bool*>(option.target); }
+
+/// What kind of text an option takes, for the help.
+std::string type_text(const Option& option) {
+  if (!option.choices.empty()) {
+    std::string text;
+    for (const std::string& choice : option.choices) text += (text.empty() ? "" : "|") + choice;
+    return text;
+  }
+  if (!option.unit.empty()) return option.unit == "length" ? "LENGTH" : option.unit;
+  if (std::holds_alternative<std::int64_t*>(option.target) ||
+      std::holds_alternative<std::optional<std::int64_t>*>(option.target)) {
+    return "N";
+  }
+  return std::holds_alternative<std::string*>(option.target) ? "TEXT" : "X";
+}
+
+std::string help_text(const Option& option) {
+  const bool is_length = std::holds_alternative<Length*>(option.target) ||
+                         std::holds_alternative<std::optional<Length>*>(option.target);
+  const auto limit = [&](double value) {
+    return is_length ? Length{value, true}.to_string() : fmt::format("{}", value);
+  };
+  std::string text = option.help;
+  if (std::isfinite(option.min) && std::isfinite(option.max)) {
+    text += fmt::format(" From {} to {}.", limit(option.min), limit(option.max));
+  } else if (std::isfinite(option.min)) {
+    text += fmt::format(" At least {}.", limit(option.min));
+  }
+  return text;
+}
+
+/// The files a stage program works on.
+struct Paths {
+  std::map<std::string, std::string> inputs;  ///< by port
+  std::string output;
+};
+
+void add_ports(CLI::App& app, const Stage& stage, Paths& paths) {
+  for (const Port& port : stage.inputs) {
+    const std::string name = port.required ? port.name : "--" + port.name;
+    CLI::Option* option = app.add_option(name, paths.inputs[port.name], port.help);
+    option->type_name("FILE")->required(port.required);
+  }
+  app.add_option("-o,--output", paths.output, stage.output.help)
+      ->type_name("FILE")
+      ->required(stage.output.kind != PortKind::report);
+}
+
+void check_paths(const Stage& stage, const Paths& paths) {
+  if (paths.output.empty()) return;
+  check_output_path(stage.output.kind, paths.output);
+  for (const auto& [port, path] : paths.inputs) {
+    std::error_code ignored;
+    if (!path.empty() && fs::equivalent(path, paths.output, ignored)) {
+      throw UsageError("output '" + paths.output + "' is the input '" + port +
+                       "'; give another name");
+    }
+  }
+}
+
+/// Reads the inputs and notes their digests.
+Inputs load_inputs(const Stage& stage, const Paths& paths, Provenance& provenance,
+                   ConsoleObserver& console) {
+  Inputs inputs;
+  for (const Port& port : stage.inputs) {
+    const std::string& path = paths.inputs.at(port.name);
+    if (path.empty()) continue;
+    console.report("reading " + path, 0);
+    inputs.set(port.name, std::make_shared<const Value>(load_value(port.kind, path)), path);
+    provenance.inputs.push_back({port.name, digest_file(path)});
+  }
+  return inputs;
+}
+
+void run_program(const Stage& stage, const Paths& paths, const ShellOptions& shell) {
+  check_paths(stage, paths);
+  ConsoleObserver console(shell.verbosity());
+  console.begin(stage.name);
+  StageRecord record{provenance_of(stage), {}};
+  const Inputs inputs = load_inputs(stage, paths, record.provenance, console);
+  StageResult result = run_stage(stage, inputs, console);
+  record.report = std::move(result.report);
+  for (const std::string& warning : record.report.warnings()) console.say("warning: " + warning);
+  if (result.output) {
+    console.report("writing " + paths.output, 1);
+    const TriMesh* mesh = inputs.find<TriMesh>("mesh");
+    save_value(paths.output, *result.output, mesh, record.provenance);
+  } else {
+    std::fputs(report_text(record.report).c_str(), stdout);
+    if (!paths.output.empty()) write_text(paths.output, record_json(record));
+  }
+  if (!shell.report_path.empty()) write_text(shell.report_path, record_json(record));
+  if (shell.verbose && result.output) console.say(report_text(record.report));
+}
+
+}  // namespace
+
+void add_options(CLI::App& target, const OptionList& options) {
+  for (const Option& option : options) {
+    if (is_flag(option)) {
+      target.add_flag_function(
+          "--" + option.name,
+          [option](std::int64_t count) { option.parse_into(count > 0 ? "true" : "false"); },
+          help_text(option));
+      continue;
+    }
+    target
+        .add_option_function<std::string>(
+            "--" + option.name, [option](const std::string& text) { option.parse_into(text); },
+            help_text(option))
+        ->type_name(type_text(option))
+        ->default_str(option.value());
+  }
+}
+
+void ShellOptions::add_to(CLI::App& app) {
+  CLI::App* group = app.add_option_group("Running");
+  add_options(*group, {{.name = "threads",
+                        .target = &threads,
+                        .unit = "",
+                        .help = "Threads to use; 0 takes every processor. Never changes a result.",
+                        .min = 0,
+                        .max = 4096,
+                        .affects_result = false}});
+  CLI::Option* quiet_flag = group->add_flag("-q,--quiet", quiet, "Say nothing but errors.");
+  group->add_flag("-v,--verbose", verbose, "Print the report too.")->excludes(quiet_flag);
+  group->add_option("--report", report_path, "Write counts, measures and warnings as JSON.")
+      ->type_name("FILE.json");
+}
+
+Verbosity ShellOptions::verbosity() const {
+  return quiet ? Verbosity::quiet : verbose ? Verbosity::verbose : Verbosity::normal;
+}
+
+int run_guarded(const std::string& program, const std::function<int()>& body) {
+  const auto fail = [&](const std::string& message, ExitCode code) {
+    fmt::print(stderr, "{}: error: {}\n", program, message);
+    return static_cast<int>(code);
+  };
+  try {
+    catch_interrupts();
+    return body();
+  } catch (const Error& error) {
+    return fail(error.what(), error.code());
+  } catch (const std::bad_alloc&) {
+    return fail("out of memory; use a smaller mesh or a machine with more memory",
+                ExitCode::internal);
+  } catch (const std::exception& error) {
+    return fail(std::string("internal error, please report it: ") + error.what(),
+                ExitCode::internal);
+  }
+}
+
+std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv) {
+  try {
+    app.parse(argc, argv);
+    return std::nullopt;
+  } catch (const CLI::ParseError& error) {
+    const bool is_answer = error.get_exit_code() == 0;  // help or version
+    app.exit(error);
+    return static_cast<int>(is_answer ? ExitCode::ok : ExitCode::usage);
+  }
+}
+
+void run_with_threads(std::int64_t threads, const std::function<void()>& work) {
+  const auto limit = threads > 0 ? static_cast<std::size_t>(threads)
+                                 : static_cast<std::size_t>(tbb::info::default_concurrency());
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, limit);
+  work();
+}
+
+int stage_main(const Stage& stage, int argc, char** argv) {
+  const std::string program = "strake-" + stage.name;
+  return run_guarded(program, [&] {
+    CLI::App app(stage.summary, program);
+    app.set_version_flag("--version", program + " " STRAKE_VERSION);
+    Paths paths;
+    ShellOptions shell;
+    add_ports(app, stage, paths);
+    add_options(app, stage.options);
+    shell.add_to(app);
+    if (const auto exit_code = parse_command_line(app, argc, argv)) return *exit_code;
+    run_with_threads(shell.threads, [&] { run_program(stage, paths, shell); });
+    return 0;
+  });
+}
+
+}  // namespace strake

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "common/stage/console.h"
+#include "common/stage/report_text.h"
+#include "common/stage/stage.h"
+
+/// What every program of strake shares: command line, threads, signals, errors, exit codes.
+namespace strake {
+
+/// Adds a flag or option per declared option, with unit, range and default in its help.
+/// \param target  an App or one of its option groups
+void add_options(CLI::App& target, const OptionList& options);
+
+/// The options that every program has.
+struct ShellOptions {
+  std::int64_t threads = 0;  ///< 0: all processors
+  bool quiet = false;
+  bool verbose = false;
+  std::string report_path;
+
+  /// Adds --threads, --quiet, --verbose and --report.
+  void add_to(CLI::App& app);
+  [[nodiscard]] Verbosity verbosity() const;
+};
+
+/// Runs `body` with signals caught and with every error turned into a message and an exit code.
+/// \return what `body` returns, or the error's exit code
+int run_guarded(const std::string& program, const std::function<int()>& body);
+
+/// Parses the command line. \return the exit code where the program is to end now (help, version,
+/// wrong usage), nothing otherwise
+std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv);
+
+/// Runs `work` with the wanted number of threads. \param threads  0: all processors
+void run_with_threads(std::int64_t threads, const std::function<void()>& work);
+
+/// The whole program of a stage: reads its inputs, runs it, writes output and report.
+int stage_main(const Stage& stage, int argc, char** argv);
+
+}  // namespace strake

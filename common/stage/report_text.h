@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/artifact/provenance.h"
+#include "common/core/report.h"
+
+namespace strake {
+
+/// What one stage did and said. Holds no times, so that equal work gives equal text.
+struct StageRecord {
+  Provenance provenance;
+  Report report;
+};
+
+/// A stage's record as JSON, dotted keys nested: "stage", "stage_version", "options", "inputs",
+/// "result", "warnings".
+std::string record_json(const StageRecord& record);
+
+/// Records of a whole pipeline as a JSON object by stage name.
+std::string records_json(const std::vector<StageRecord>& records);
+
+/// One "key: value" line per entry, in order, values aligned.
+std::string report_text(const Report& report);
+
+/// A value as people read it: shortest text, six digits of a number with a fraction.
+std::string value_text(const Report::Value& value);
+
+/// Writes text to a file atomically. \throw InputError naming the file
+void write_text(const std::filesystem::path& path, const std::string& text);
+
+}  // namespace strake

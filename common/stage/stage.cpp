@@ -1,0 +1,40 @@
+#include "common/stage/stage.h"
+
+#include "common/core/error.h"
+
+namespace strake {
+
+const Option& Stage::option(const std::string& option_name) const {
+  for (const Option& option : options) {
+    if (option.name == option_name) return option;
+  }
+  throw Error(ExitCode::internal, "stage " + name + " has no option " + option_name);
+}
+
+StageResult run_stage(const Stage& stage, const Inputs& inputs, Observer& observer) {
+  const Port* mesh_port = nullptr;
+  for (const Port& port : stage.inputs) {
+    if (port.kind == PortKind::mesh) mesh_port = &port;
+  }
+  for (const Port& port : stage.inputs) {
+    if (mesh_port == nullptr || port.kind == PortKind::mesh || !inputs.has(port.name)) continue;
+    check_belongs(inputs.get<TriMesh>(mesh_port->name), inputs.origin(mesh_port->name),
+                  inputs.value(port.name), inputs.origin(port.name));
+  }
+  return stage.run(inputs, observer);
+}
+
+Provenance provenance_of(const Stage& stage) {
+  Provenance provenance;
+  provenance.stage = stage.name;
+  provenance.stage_version = stage.version;
+  for (std::size_t i = 0; i < stage.options.size(); ++i) {
+    const Option& option = stage.options[i];
+    if (!option.affects_result) continue;
+    const std::string value = option.value();
+    provenance.options.push_back({option.name, value, value == stage.defaults[i]});
+  }
+  return provenance;
+}
+
+}  // namespace strake

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <variant>
+
+#include "common/artifact/meshfile/mesh_reader.h"
+#include "common/artifact/provenance.h"
+#include "common/core/fields.h"
+#include "common/core/line_set.h"
+#include "common/core/poly_mesh.h"
+#include "common/core/tri_mesh.h"
+
+/// What travels between stages, in memory and as files.
+namespace strake {
+
+/// A polygon mesh from a mesh file or from a quads artifact.
+struct Polygons {
+  PolyMesh mesh;
+  std::string mesh_id;  ///< of the mesh it approximates; "" where the file does not say
+  ReadReport read;      ///< what was wrong with the mesh file
+};
+
+using Value = std::variant<Polygons, TriMesh, TensorField, PrincipalField, LineSet, QuadMesh>;
+
+/// Kinds of values a stage takes or gives; `report` is none but the report itself.
+enum class PortKind { polygons, mesh, tensor, field, lines, quads, report };
+
+/// Reads a value from a file of the right kind.
+/// \throw InputError where the file is missing, damaged or of another kind
+Value load_value(PortKind kind, const std::filesystem::path& path);
+
+/// Writes a value: artifacts, and quads also as .obj, .ply or .off as the extension says.
+/// \param mesh  the mesh a field or line set belongs to; unused for others
+void save_value(const std::filesystem::path& path, const Value& value, const TriMesh* mesh,
+                const Provenance& provenance);
+
+/// Refuses a file name that `save_value` could not write to, before any work is done.
+/// \throw UsageError, InputError naming the file and a remedy
+void check_output_path(PortKind kind, const std::filesystem::path& path);
+
+/// The mesh a value belongs to; "" where it does not say. Of a TriMesh its own id.
+const std::string& mesh_id_of(const Value& value);
+
+/// Checks that a value was made for this mesh and fits it, so that its indices may be trusted.
+/// \param mesh_name, name  files or ports for the message
+/// \throw PreconditionError where it belongs to another mesh, InputError where it does not fit
+void check_belongs(const TriMesh& mesh, const std::string& mesh_name, const Value& value,
+                   const std::string& name);
+
+}  // namespace strake

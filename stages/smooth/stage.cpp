@@ -1,0 +1,25 @@
+#include "stages/smooth/stage.h"
+
+#include <utility>
+
+#include "stages/smooth/smooth.h"
+
+namespace strake {
+
+Stage smooth_stage() {
+  Stage stage;
+  stage.name = "smooth";
+  stage.version = 1;
+  stage.summary = "Smooths curvature tensors and extracts principal frames.";
+  stage.inputs = {{"mesh", PortKind::mesh, "mesh artifact"},
+                  {"tensor", PortKind::tensor, "tensor artifact of that mesh"}};
+  stage.output = {"field", PortKind::field, "field artifact to write, .hdf"};
+  return with_options<SmoothOptions>(
+      std::move(stage), [](const Inputs& inputs, const SmoothOptions& options, Observer& observer) {
+        SmoothResult result = smooth_tensors(inputs.get<TriMesh>("mesh"),
+                                             inputs.get<TensorField>("tensor"), options, observer);
+        return StageResult{std::move(result.field), std::move(result.report)};
+      });
+}
+
+}  // namespace strake
