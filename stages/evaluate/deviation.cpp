@@ -1,0 +1,105 @@
+#include "stages/evaluate/deviation.h"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "stages/evaluate/statistics.h"
+
+namespace strake::evaluation {
+namespace {
+
+constexpr std::int64_t kBatch = 1 << 16;  // between two reports of progress
+
+struct OneWay {
+  double mean = 0, rms = 0, max = 0;
+  double normal_mean = 0, normal_rms = 0, normal_max = 0, facing_away = 0;  // degrees; a share
+};
+
+/// Calls `body(i)` for 0 <= i < n in parallel, with progress; results must go to places of their
+/// own.
+template <class Body>
+void in_batches(std::int64_t n, const char* phase, Observer& observer, const Body& body) {
+  for (std::int64_t begin = 0; begin < n; begin += kBatch) {
+    observer.report(phase, static_cast<double>(begin) / static_cast<double>(n));
+    tbb::parallel_for(begin, std::min(n, begin + kBatch), body);
+  }
+}
+
+double degrees_between(const Vec3& a, const Vec3& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
+}
+
+OneWay measure(const SurfaceWithVertices& from, const MeasuredSurface& to, std::int64_t samples,
+               const char* phase, Observer& observer) {
+  std::vector<double> distance(static_cast<std::size_t>(samples));
+  std::vector<double> angle(distance.size());
+  in_batches(samples, phase, observer, [&](std::int64_t i) {
+    const SurfaceSample sample = from.surface.sample(i, samples);
+    const ClosestPoint foot = to.distance().closest(sample.position);
+    distance[i] = foot.distance;
+    angle[i] = degrees_between(sample.normal, to.normal(foot.triangle));
+  });
+  std::vector<double> at_vertex(from.vertices.size());
+  in_batches(static_cast<std::int64_t>(at_vertex.size()), phase, observer, [&](std::int64_t i) {
+    at_vertex[i] = to.distance().closest(from.vertices[i]).distance;
+  });
+
+  OneWay result;
+  result.mean = mean(distance);
+  result.rms = rms(distance);
+  result.max = std::max(largest(distance), largest(at_vertex));
+  result.normal_mean = mean(angle);
+  result.normal_rms = rms(angle);
+  result.normal_max = largest(angle);
+  const auto away = std::count_if(angle.begin(), angle.end(), [](double a) { return a > 90; });
+  result.facing_away = share(static_cast<double>(away), static_cast<double>(samples));
+  return result;
+}
+
+OneWay both(const OneWay& a, const OneWay& b) {
+  OneWay result;
+  result.mean = (a.mean + b.mean) / 2;
+  result.rms = std::sqrt((a.rms * a.rms + b.rms * b.rms) / 2);
+  result.max = std::max(a.max, b.max);
+  result.normal_mean = (a.normal_mean + b.normal_mean) / 2;
+  result.normal_rms = std::sqrt((a.normal_rms * a.normal_rms + b.normal_rms * b.normal_rms) / 2);
+  result.normal_max = std::max(a.normal_max, b.normal_max);
+  result.facing_away = (a.facing_away + b.facing_away) / 2;
+  return result;
+}
+
+void report_way(const std::string& way, const OneWay& measured, double diagonal, Report& report) {
+  const std::string distance = "distance." + way;
+  report.set(distance + "rms", measured.rms);
+  report.set(distance + "mean", measured.mean);
+  report.set(distance + "max", measured.max);
+  report.set(distance + "rms_share", share(measured.rms, diagonal));
+  report.set(distance + "mean_share", share(measured.mean, diagonal));
+  report.set(distance + "max_share", share(measured.max, diagonal));
+  const std::string normals = "normals." + way;
+  report.set(normals + "mean_deg", measured.normal_mean);
+  report.set(normals + "rms_deg", measured.normal_rms);
+  report.set(normals + "max_deg", measured.normal_max);
+  report.set(normals + "facing_away_share", measured.facing_away);
+}
+
+}  // namespace
+
+void report_deviation(const SurfaceWithVertices& reference, const SurfaceWithVertices& candidate,
+                      double diagonal, std::int64_t samples, Observer& observer, Report& report) {
+  const OneWay to_reference =
+      measure(candidate, reference.surface, samples, "distances to the reference", observer);
+  const OneWay from_reference =
+      measure(reference, candidate.surface, samples, "distances from the reference", observer);
+  report.set("distance.samples", samples);
+  report_way("", both(to_reference, from_reference), diagonal, report);
+  report_way("to_reference.", to_reference, diagonal, report);
+  report_way("from_reference.", from_reference, diagonal, report);
+}
+
+}  // namespace strake::evaluation

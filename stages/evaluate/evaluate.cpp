@@ -1,0 +1,121 @@
+#include "stages/evaluate/evaluate.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/core/error.h"
+#include "common/geometry/poly_topology/face_shape.h"
+#include "common/geometry/poly_topology/poly_edges.h"
+#include "common/geometry/poly_topology/poly_topology.h"
+#include "stages/evaluate/alignment.h"
+#include "stages/evaluate/deviation.h"
+#include "stages/evaluate/kept_edges.h"
+#include "stages/evaluate/measured_surface.h"
+#include "stages/evaluate/shape.h"
+
+namespace strake {
+namespace {
+
+PolyMesh as_polygons(const TriMesh& mesh) {
+  PolyMesh result;
+  result.positions = mesh.positions;
+  result.corners.reserve(3 * mesh.faces.size());
+  result.offsets.reserve(mesh.faces.size() + 1);
+  for (const auto& face : mesh.faces) result.add_face(face);
+  return result;
+}
+
+/// The candidate's vertices that faces use, in the reference's frame.
+std::vector<Vec3> used_vertices(const PolyMesh& mesh) {
+  std::vector<std::uint8_t> is_used(mesh.positions.size(), 0);
+  for (const Index v : mesh.corners) is_used[v] = 1;
+  std::vector<Vec3> used;
+  for (std::size_t v = 0; v < is_used.size(); ++v) {
+    if (is_used[v] != 0) used.push_back(mesh.positions[v]);
+  }
+  return used;
+}
+
+void require_finite(const PolyMesh& mesh) {
+  for (std::size_t c = 0; c < mesh.corners.size(); ++c) {
+    if (!mesh.positions[mesh.corners[c]].allFinite()) {
+      throw PreconditionError("the candidate's vertex " + std::to_string(mesh.corners[c]) +
+                              " has coordinates that are no finite numbers; repair the mesh first");
+    }
+  }
+}
+
+void report_one_topology(const std::string& prefix, const PolyTopology& topology, Report& report) {
+  report.set(prefix + "vertices", std::int64_t{topology.used_vertices});
+  report.set(prefix + "unused_vertices", std::int64_t{topology.unused_vertices});
+  report.set(prefix + "edges", std::int64_t{topology.edges});
+  report.set(prefix + "faces", std::int64_t{topology.faces});
+  report.set(prefix + "components", std::int64_t{topology.components});
+  report.set(prefix + "boundary_loops", std::int64_t{topology.boundary_loops});
+  report.set(prefix + "euler", topology.euler);
+  if (topology.genus) report.set(prefix + "genus", *topology.genus);
+  report.set(prefix + "oriented_manifold", topology.is_oriented_manifold());
+}
+
+void report_topology(const PolyTopology& reference, const PolyTopology& candidate, Report& report) {
+  report_one_topology("topology.candidate.", candidate, report);
+  report.set("topology.candidate.nonmanifold_edges",
+             std::int64_t{candidate.nonmanifold_edges.count});
+  report.set("topology.candidate.nonmanifold_vertices",
+             std::int64_t{candidate.nonmanifold_vertices.count});
+  report.set("topology.candidate.misoriented_edges",
+             std::int64_t{candidate.misoriented_edges.count});
+  report.set("topology.candidate.repeated_corner_faces",
+             std::int64_t{candidate.repeated_corners.count});
+  report_one_topology("topology.reference.", reference, report);
+  const bool equal = candidate.is_oriented_manifold() == reference.is_oriented_manifold() &&
+                     candidate.components == reference.components &&
+                     candidate.boundary_loops == reference.boundary_loops &&
+                     candidate.euler == reference.euler;
+  report.set("topology.equal", equal);
+  const std::string defects = candidate.defects();
+  if (!defects.empty()) report.warn("the candidate has " + defects);
+  if (!equal) report.warn("the candidate's topology is not the reference's");
+}
+
+}  // namespace
+
+EvaluateResult evaluate_mesh(const TriMesh& reference, const PrincipalField* field,
+                             const PolyMesh& candidate, const EvaluateOptions& options,
+                             Observer& observer) {
+  EvaluateResult result;
+  Report& report = result.report;
+
+  observer.report("topology", 0);
+  const PolyEdges edges = collect_edges(candidate);
+  const PolyTopology topology = analyse(candidate, edges);
+  require_finite(candidate);
+  report_topology(analyse(as_polygons(reference)), topology, report);
+
+  observer.report("shape", 0);
+  PolyMesh local = candidate;
+  for (Vec3& p : local.positions) p -= reference.origin;
+  const FaceTriangles triangles = triangulate_faces(local);
+  evaluation::report_shape(local, topology, triangles, edges, report);
+  evaluation::report_valence(local, edges, report);
+
+  const evaluation::MeasuredSurface reference_surface(reference.positions, reference.faces,
+                                                      "the reference");
+  const evaluation::MeasuredSurface candidate_surface(local.positions, triangles.corners,
+                                                      "the candidate");
+  const std::vector<Vec3> candidate_vertices = used_vertices(local);
+  evaluation::report_deviation({reference_surface, reference.positions},
+                               {candidate_surface, candidate_vertices}, reference.diagonal,
+                               options.samples, observer, report);
+
+  observer.report("features and alignment", 0);
+  evaluation::report_kept_edges(reference, local, edges, report);
+  if (field != nullptr) {
+    evaluation::report_alignment(reference, reference_surface, *field, local, edges, report);
+  }
+  observer.report("features and alignment", 1);
+  return result;
+}
+
+}  // namespace strake

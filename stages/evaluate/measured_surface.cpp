@@ -1,0 +1,82 @@
+#include "stages/evaluate/measured_surface.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "common/core/error.h"
+
+namespace strake::evaluation {
+namespace {
+
+constexpr double kNoArea = 1e-14;  // of the longest edge squared
+
+// The additive recurrence of Roberts (2018) in three dimensions: powers of 1 / g, g^4 = g + 1.
+constexpr std::array<double, 3> kStep = {0.8191725133961645, 0.6710436067037893,
+                                         0.5497004779019703};
+
+double fraction(double x) { return x - std::floor(x); }
+
+std::vector<Index> triangles_with_area(const std::vector<Vec3>& positions,
+                                       const std::vector<std::array<Index, 3>>& triangles,
+                                       const char* what) {
+  std::vector<Index> kept;
+  kept.reserve(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const Vec3& a = positions[triangles[t][0]];
+    const Vec3& b = positions[triangles[t][1]];
+    const Vec3& c = positions[triangles[t][2]];
+    const double longest2 =
+        std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+    const double area = (b - a).cross(c - a).norm() / 2;
+    if (area > kNoArea * longest2 && std::isfinite(area)) kept.push_back(static_cast<Index>(t));
+  }
+  if (kept.empty()) throw PreconditionError(std::string(what) + " has no face with an area");
+  return kept;
+}
+
+std::vector<std::array<Index, 3>> selected(const std::vector<std::array<Index, 3>>& triangles,
+                                           const std::vector<Index>& sources) {
+  std::vector<std::array<Index, 3>> result;
+  result.reserve(sources.size());
+  for (const Index t : sources) result.push_back(triangles[t]);
+  return result;
+}
+
+}  // namespace
+
+MeasuredSurface::MeasuredSurface(const std::vector<Vec3>& positions,
+                                 const std::vector<std::array<Index, 3>>& triangles,
+                                 const char* what)
+    : sources_(triangles_with_area(positions, triangles, what)),
+      distance_(positions, selected(triangles, sources_)) {
+  normals_.reserve(sources_.size());
+  area_up_to_.reserve(sources_.size());
+  double sum = 0;
+  for (const auto& corners : distance_.triangles()) {
+    const Vec3& a = positions[corners[0]];
+    const Vec3 normal = (positions[corners[1]] - a).cross(positions[corners[2]] - a);
+    sum += normal.norm() / 2;
+    normals_.push_back(normal.normalized());
+    area_up_to_.push_back(sum);
+  }
+}
+
+SurfaceSample MeasuredSurface::sample(std::int64_t i, std::int64_t n) const {
+  const auto number = static_cast<double>(i);
+  const double walked =
+      area() * (number + fraction(0.5 + number * kStep[0])) / static_cast<double>(n);
+  const auto found = std::upper_bound(area_up_to_.begin(), area_up_to_.end(), walked);
+  const auto triangle =
+      std::min(static_cast<std::size_t>(found - area_up_to_.begin()), area_up_to_.size() - 1);
+  const double root = std::sqrt(fraction(0.5 + number * kStep[1]));
+  const double v = fraction(0.5 + number * kStep[2]);
+  const auto& corners = distance_.triangles()[triangle];
+  const auto& positions = distance_.positions();
+  return {(1 - root) * positions[corners[0]] + root * (1 - v) * positions[corners[1]] +
+              root * v * positions[corners[2]],
+          normals_[triangle]};
+}
+
+}  // namespace strake::evaluation

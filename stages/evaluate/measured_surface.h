@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "common/core/types.h"
+#include "common/geometry/surface_distance/surface_distance.h"
+
+namespace strake::evaluation {
+
+/// A place on a surface with the normal of its triangle.
+struct SurfaceSample {
+  Vec3 position;
+  Vec3 normal;  ///< unit
+};
+
+/// Triangles to measure on: area-weighted samples from them, nearest points on them.
+///
+/// Triangles without area (1e-14 of their longest edge squared) are left out: they have no normal,
+/// and their neighbours cover the same place.
+class MeasuredSurface {
+ public:
+  /// \throw PreconditionError naming `what` where no triangle has an area
+  MeasuredSurface(const std::vector<Vec3>& positions,
+                  const std::vector<std::array<Index, 3>>& triangles, const char* what);
+
+  /// Sample i of n: the area is walked in n equal steps, with a low-discrepancy place in each, so
+  /// that a sum over all of them converges faster than with random points. Depends on i and n only.
+  [[nodiscard]] SurfaceSample sample(std::int64_t i, std::int64_t n) const;
+
+  [[nodiscard]] const SurfaceDistance& distance() const { return distance_; }
+  /// Unit normal of a triangle, by its index in `distance()`.
+  [[nodiscard]] const Vec3& normal(Index triangle) const { return normals_[triangle]; }
+  /// Index among the triangles given, of one in `distance()`.
+  [[nodiscard]] Index source(Index triangle) const { return sources_[triangle]; }
+  [[nodiscard]] double area() const { return area_up_to_.back(); }
+
+ private:
+  std::vector<Index> sources_;
+  std::vector<Vec3> normals_;
+  std::vector<double> area_up_to_;  // running sums
+  SurfaceDistance distance_;
+};
+
+}  // namespace strake::evaluation
