@@ -17,8 +17,10 @@ constexpr double kHoleX = 40, kHoleY = 21, kHoleRadius = 5.5, kChamfer = 2;
 constexpr double kBossRadius = 18, kBossTop = 52, kFilletRadius = 6, kBoreRadius = 11;
 constexpr double kRibHalfWidth = 4, kRibTip = 46;  // its top falls at 45 degrees to (tip, kTop)
 constexpr double kCrossRadius = 4, kCrossHeight = 36;
-/// Longest edge across a bend, in radians of the bend.
+/// Longest edge on a bend, in radians of the bend; and the radius from which on a bend is no reason
+/// for smaller edges than elsewhere.
 constexpr double kTurn = 0.4;
+constexpr double kCalmRadius = 8;
 
 using Curves = std::vector<Index>;
 
@@ -48,7 +50,9 @@ class PartDesign {
 
  private:
   /// Wanted edge length on a bend of the given radius.
-  [[nodiscard]] double fine(double radius) const { return std::min(size_, kTurn * radius); }
+  [[nodiscard]] double fine(double radius) const {
+    return std::min(size_ * std::min(1.0, std::sqrt(radius / kCalmRadius)), kTurn * radius);
+  }
 
   void add(const SurfacePtr& surface, double size, const Curves& curves) {
     builder_.add_patch(surface, size, curves, region_++);

@@ -17,8 +17,12 @@ constexpr int kSizeTrials = 6;
 constexpr double kCountTolerance = 0.03;
 constexpr double kMinFaces = 500, kMaxFaces = 1e7;
 
+double jitter_of(SampleKind kind, const SampleOptions& options) {
+  return options.jitter.value_or(kind == SampleKind::part ? 0.0 : 0.25);
+}
+
 SurfaceDraft draw(SampleKind kind, double size, const SampleOptions& options) {
-  SurfaceBuilder builder(options.jitter, static_cast<std::uint64_t>(options.seed));
+  SurfaceBuilder builder(jitter_of(kind, options), static_cast<std::uint64_t>(options.seed));
   design_analytic(kind, size, builder);
   return builder.finish();
 }
@@ -64,14 +68,14 @@ LabelledSample make_labelled_sample(SampleKind kind, const SampleOptions& option
     throw UsageError("sample: faces must lie between 500 and 10000000, not " +
                      std::to_string(options.faces));
   }
-  if (!(options.jitter >= 0 && options.jitter <= 1)) {
-    throw UsageError("sample: jitter must lie between 0 and 1, not " +
-                     std::to_string(options.jitter));
+  const double jitter = jitter_of(kind, options);
+  if (!(jitter >= 0 && jitter <= 1)) {
+    throw UsageError("sample: jitter must lie between 0 and 1, not " + std::to_string(jitter));
   }
   SurfaceDraft draft = draw_with_count(kind, options);
   relax(draft, kRelaxRounds);
   UniformRandom random(static_cast<std::uint64_t>(options.seed) + 1);
-  scatter(draft, options.jitter, random);
+  scatter(draft, jitter, random);
 
   LabelledSample sample;
   sample.mesh.positions = std::move(draft.positions);
