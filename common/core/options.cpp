@@ -152,8 +152,8 @@ std::string Length::to_string() const {
     char buffer[40];
     const auto result =
         std::to_chars(buffer, buffer + sizeof buffer, scaled, std::chars_format::general, digits);
-    const std::string text(buffer, result.ptr);
-    if (parse_number<double>(text).value() / 100 == value) return text + "%";
+    const double rounded = parse_number<double>({buffer, result.ptr}).value();
+    if (rounded / 100 == value) return number_text(rounded) + "%";
   }
   return number_text(scaled) + "%";
 }

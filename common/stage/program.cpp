@@ -180,9 +180,8 @@ std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv) {
     app.parse(argc, argv);
     return std::nullopt;
   } catch (const CLI::ParseError& error) {
-    const bool is_answer = error.get_exit_code() == 0;  // help or version
-    app.exit(error);
-    return static_cast<int>(is_answer ? ExitCode::ok : ExitCode::usage);
+    if (error.get_exit_code() == 0) return app.exit(error);  // help or version
+    throw UsageError(std::string(error.what()) + " (see " + app.get_name() + " --help)");
   }
 }
 

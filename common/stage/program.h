@@ -32,8 +32,8 @@ struct ShellOptions {
 /// \return what `body` returns, or the error's exit code
 int run_guarded(const std::string& program, const std::function<int()>& body);
 
-/// Parses the command line. \return the exit code where the program is to end now (help, version,
-/// wrong usage), nothing otherwise
+/// Parses the command line. \return the exit code where the program has answered (help, version)
+/// \throw UsageError where the command line is wrong
 std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv);
 
 /// Runs `work` with the wanted number of threads. \param threads  0: all processors

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <functional>
+
+#include "common/stage/program.h"
+
+/// The commands of the program `strake`. Each adds itself to the command line.
+namespace strake {
+
+/// Work of the command that was chosen; returns an exit code.
+using Action = std::function<int()>;
+
+void add_remesh_command(CLI::App& app, Action& chosen);
+void add_info_command(CLI::App& app, Action& chosen);
+void add_check_command(CLI::App& app, Action& chosen);
+void add_sample_command(CLI::App& app, Action& chosen);
+
+}  // namespace strake

@@ -1,0 +1,140 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "common/artifact/artifact.h"
+#include "common/artifact/digest.h"
+#include "common/core/error.h"
+#include "common/geometry/poly_topology/poly_topology.h"
+#include "common/geometry/topology/topology.h"
+#include "strake/commands.h"
+
+namespace strake {
+namespace {
+
+void print_artifact(const std::string& path) {
+  const ArtifactInfo info = read_artifact_info(path);
+  fmt::print("{}: strake artifact\n", path);
+  fmt::print("  kind       {}, format {}\n", kind_name(info.kind), info.format_version);
+  fmt::print("  mesh       {}\n", info.mesh_id);
+  fmt::print("  digest     {}\n", digest_file(path));
+  fmt::print("  made by    {}, version {}\n", info.provenance.stage, info.provenance.stage_version);
+  for (const auto& option : info.provenance.options) {
+    fmt::print("    --{} {}{}\n", option.name, option.value.empty() ? "(none)" : option.value,
+               option.is_default ? "  (default)" : "");
+  }
+  for (const auto& input : info.provenance.inputs) {
+    fmt::print("    from {} {}\n", input.role, input.digest);
+  }
+  fmt::print("  data\n");
+  for (const auto& dataset : info.datasets) {
+    fmt::print("    {:<28} {} x {} {}\n", dataset.name, dataset.rows, dataset.columns,
+               dataset.type);
+  }
+}
+
+void print_topology(const PolyTopology& topology) {
+  fmt::print("  vertices   {}{}\n", topology.used_vertices,
+             topology.unused_vertices > 0
+                 ? fmt::format(", and {} that no face uses", topology.unused_vertices)
+                 : "");
+  fmt::print("  faces      {}: {} triangles, {} quads, {} pentagons, {} larger\n", topology.faces,
+             topology.triangles, topology.quads, topology.pentagons, topology.larger_faces);
+  fmt::print("  edges      {}, {} on the boundary\n", topology.edges, topology.boundary_edges);
+  fmt::print("  components {}, boundary loops {}", topology.components, topology.boundary_loops);
+  if (topology.genus) fmt::print(", genus {}", *topology.genus);
+  fmt::print("\n");
+  if (topology.is_oriented_manifold()) {
+    fmt::print("  surface    oriented manifold, {}\n",
+               topology.boundary_edges == 0 ? "closed" : "with boundary");
+  } else {
+    fmt::print("  defects    {}\n", topology.defects());
+  }
+}
+
+int print_info(const std::string& path) {
+  if (is_artifact(path)) {
+    print_artifact(path);
+    return 0;
+  }
+  ReadReport read;
+  const PolyMesh mesh = read_mesh(path, read);
+  fmt::print("{}: mesh file, {}\n", path, read.format);
+  for (const std::string& warning : read.warnings()) fmt::print("  warning    {}\n", warning);
+  print_topology(analyse(mesh));
+  return 0;
+}
+
+/// Reads all of an artifact that is no surface; reading is the check.
+void check_artifact(ArtifactKind kind, const std::string& path) {
+  switch (kind) {
+    case ArtifactKind::mesh:
+      validate(read_tri_mesh(path));
+      break;
+    case ArtifactKind::tensor:
+      read_tensor_field(path);
+      break;
+    case ArtifactKind::field:
+      read_principal_field(path);
+      break;
+    case ArtifactKind::lines:
+      read_line_set(path);
+      break;
+    case ArtifactKind::quads:
+      read_quad_mesh(path);
+      break;
+  }
+}
+
+int check_file(const std::string& path, std::int64_t max_sides) {
+  if (is_artifact(path)) {
+    const ArtifactKind kind = read_artifact_info(path).kind;
+    check_artifact(kind, path);
+    if (kind != ArtifactKind::quads) {
+      fmt::print("{}: sound {} artifact\n", path, kind_name(kind));
+      return 0;
+    }
+  }
+  const Value value = load_value(PortKind::polygons, path);
+  const auto& polygons = std::get<Polygons>(value);
+  const PolyTopology topology = analyse(polygons.mesh);
+  fmt::print("{}\n", path);
+  print_topology(topology);
+  std::string faults = topology.defects();
+  for (const std::string& warning : polygons.read.warnings()) faults += " " + warning;
+  if (max_sides > 0 && topology.most_sides > max_sides) {
+    faults += fmt::format(" A face has {} sides, {} are allowed.", topology.most_sides, max_sides);
+  }
+  if (faults.empty()) return 0;
+  throw AlgorithmError(path + " is not sound: " + faults);
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app, Action& chosen) {
+  CLI::App* command = app.add_subcommand("info", "Say what a mesh file or an artifact holds.");
+  const auto path = std::make_shared<std::string>();
+  command->add_option("file", *path, "mesh file or artifact")->type_name("FILE")->required();
+  command->callback([path, &chosen] { chosen = [path] { return print_info(*path); }; });
+}
+
+void add_check_command(CLI::App& app, Action& chosen) {
+  CLI::App* command = app.add_subcommand(
+      "check", "Check that an artifact is undamaged, or that a mesh is an oriented manifold.");
+  const auto path = std::make_shared<std::string>();
+  const auto max_sides = std::make_shared<std::int64_t>(0);
+  command->add_option("file", *path, "mesh file or artifact")->type_name("FILE")->required();
+  add_options(*command, {{.name = "max-sides",
+                          .target = max_sides.get(),
+                          .unit = "",
+                          .help = "Largest number of sides a face may have; 0 allows any.",
+                          .min = 0,
+                          .max = 1e6}});
+  command->callback([path, max_sides, &chosen] {
+    chosen = [path, max_sides] { return check_file(*path, *max_sides); };
+  });
+}
+
+}  // namespace strake

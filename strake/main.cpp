@@ -1,0 +1,16 @@
+#include "strake/commands.h"
+
+int main(int argc, char** argv) {
+  return strake::run_guarded("strake", [&] {
+    CLI::App app("Anisotropic quad-dominant remeshing along lines of curvature.", "strake");
+    app.set_version_flag("--version", "strake " STRAKE_VERSION);
+    app.require_subcommand(1);
+    strake::Action chosen;
+    strake::add_remesh_command(app, chosen);
+    strake::add_info_command(app, chosen);
+    strake::add_check_command(app, chosen);
+    strake::add_sample_command(app, chosen);
+    if (const auto exit_code = strake::parse_command_line(app, argc, argv)) return *exit_code;
+    return chosen();
+  });
+}

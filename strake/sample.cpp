@@ -1,0 +1,42 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+
+#include "common/artifact/meshfile/mesh_writer.h"
+#include "common/geometry/samples/samples.h"
+#include "strake/commands.h"
+
+namespace strake {
+namespace {
+
+struct SampleCommand {
+  std::string kind;
+  std::string output;
+  SampleOptions options;
+};
+
+int make(const SampleCommand& command) {
+  check_output_path(PortKind::polygons, command.output);
+  const PolyMesh mesh = make_sample(sample_kind(command.kind), command.options);
+  write_mesh(command.output, mesh);
+  fmt::print("{}: {} vertices, {} faces\n", command.output, mesh.vertex_count(), mesh.face_count());
+  return 0;
+}
+
+}  // namespace
+
+void add_sample_command(CLI::App& app, Action& chosen) {
+  CLI::App* command = app.add_subcommand("sample", "Make a surface to try things on.");
+  const auto sample = std::make_shared<SampleCommand>();
+  std::string kinds;
+  for (const std::string& name : sample_names()) kinds += (kinds.empty() ? "" : ", ") + name;
+  command->add_option("kind", sample->kind, kinds)->type_name("KIND")->required();
+  command->add_option("-o,--output", sample->output, "file to write: .obj, .ply or .off")
+      ->type_name("FILE")
+      ->required();
+  add_options(*command, sample->options.declare());
+  command->callback([sample, &chosen] { chosen = [sample] { return make(*sample); }; });
+}
+
+}  // namespace strake

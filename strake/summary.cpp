@@ -1,0 +1,55 @@
+#include "strake/summary.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+namespace strake {
+namespace {
+
+/// A number or flag of the report; empty where it says nothing about it.
+std::optional<double> measure(const Report& report, const std::string& key) {
+  for (const auto& [name, value] : report.entries()) {
+    if (name != key) continue;
+    if (const auto* real = std::get_if<double>(&value)) return *real;
+    if (const auto* count = std::get_if<std::int64_t>(&value)) return static_cast<double>(*count);
+    if (const auto* flag = std::get_if<bool>(&value)) return *flag ? 1 : 0;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string summary_text(const std::string& output, const PolyMesh& mesh, const Report* measures) {
+  Index quads = 0;
+  for (Index f = 0; f < mesh.face_count(); ++f) quads += mesh.face(f).size() == 4 ? 1 : 0;
+  std::string text = fmt::format("{}: {} vertices, {} faces, {:.1f} % of them quads\n", output,
+                                 mesh.vertex_count(), mesh.face_count(),
+                                 100.0 * quads / std::max<Index>(mesh.face_count(), 1));
+  if (measures == nullptr) return text;
+  const auto line = [&](const char* label, const char* key, double factor, const char* unit) {
+    if (const auto value = measure(*measures, key)) {
+      text += fmt::format("  {:<28} {:.3g} {}\n", label, *value * factor, unit);
+    }
+  };
+  if (const auto sound = measure(*measures, "topology.candidate.oriented_manifold")) {
+    const auto equal = measure(*measures, "topology.equal");
+    text += fmt::format("  {:<28} {}{}\n", "topology",
+                        *sound != 0 ? "oriented manifold" : "NOT an oriented manifold",
+                        !equal        ? ""
+                        : *equal != 0 ? ", as the input"
+                                      : ", differs from the input");
+  }
+  for (const auto& [label, key] :
+       {std::pair{"distance to input, rms", "distance.to_reference.rms_share"},
+        std::pair{"distance to input, largest", "distance.to_reference.max_share"},
+        std::pair{"distance from input, largest", "distance.from_reference.max_share"}}) {
+    line(label, key, 100, "% of the diagonal");
+  }
+  line("aligned within 10 deg", "alignment.within_10_deg_share", 100, "% of the edge length");
+  line("smallest angle", "angles.min_deg", 1, "deg");
+  line("concave faces", "faces.concave", 1, "");
+  return text;
+}
+
+}  // namespace strake
