@@ -1,0 +1,169 @@
+#include "stages/import/features.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "stages/import/face_normals.h"
+#include "stages/import/feature_graph.h"
+
+namespace strake::import {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+double angle_between(const Vec3& a, const Vec3& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// Angle by which the surface is bent at each half-edge's edge; 0 on the boundary.
+std::vector<float> bend_angles(const TriMesh& mesh) {
+  const std::vector<Vec3> normals = robust_face_normals(mesh);
+  std::vector<float> bend(mesh.halfedge_count(), 0);
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    const Index twin = mesh.twin[h];
+    if (twin == kNone || h > twin) continue;
+    bend[h] = bend[twin] = static_cast<float>(angle_between(normals[h / 3], normals[twin / 3]));
+  }
+  return bend;
+}
+
+void set_feature(TriMesh& mesh, Index h, bool value) {
+  mesh.is_feature[h] = mesh.is_feature[mesh.twin[h]] = value ? 1 : 0;
+}
+
+Vec3 direction(const TriMesh& mesh, Index h) {
+  return (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).stableNormalized();
+}
+
+/// Calls `visit` with every half-edge that leaves a vertex, and with the twins of none.
+template <typename Visit>
+void for_each_outgoing(const TriMesh& mesh, Index vertex, const Visit& visit) {
+  const Index start = mesh.vertex_out[vertex];
+  Index h = start;
+  do {
+    visit(h);
+    h = mesh.rotate_ccw(h);
+  } while (h != kNone && h != start);
+}
+
+/// Continues creases that end in the open along weakly bent edges, up to the next crease.
+class Bridges {
+ public:
+  Bridges(TriMesh& mesh, const std::vector<float>& bend, double weak)
+      : mesh_(mesh), bend_(bend), weak_(weak), degree_(barrier_degrees(mesh)) {}
+
+  Index run() {
+    const std::vector<Index> degree = degree_;
+    Index added = 0;
+    for (Index v = 0; v < mesh_.vertex_count(); ++v) {
+      if (degree[v] != 1 || degree_[v] != 1) continue;
+      const std::vector<Index> path = find_path(v);
+      for (const Index h : path) {
+        set_feature(mesh_, h, true);
+        ++degree_[mesh_.from(h)];
+        ++degree_[mesh_.to(h)];
+        ++added;
+      }
+    }
+    return added;
+  }
+
+ private:
+  /// Half-edges from the end of a crease to another; empty where there is no way.
+  std::vector<Index> find_path(Index end) {
+    constexpr std::size_t kLongest = 1000;
+    Index last = kNone;
+    for_each_outgoing(mesh_, end, [&](Index h) {
+      if (mesh_.is_feature[h] != 0) last = mesh_.twin[h];
+    });
+    std::vector<Index> path;
+    while (last != kNone && path.size() < kLongest) {
+      last = next_edge(last);
+      if (last == kNone) break;
+      path.push_back(last);
+      if (degree_[mesh_.to(last)] > 0) return path;
+    }
+    return {};
+  }
+
+  /// The weakly bent edge that goes on most nearly straight from a half-edge.
+  [[nodiscard]] Index next_edge(Index last) const {
+    const Vec3 heading = direction(mesh_, last);
+    constexpr double kStraight = 0.7;  // cosine of about 45 degrees
+    double best_cosine = kStraight;
+    Index best = kNone;
+    for_each_outgoing(mesh_, mesh_.to(last), [&](Index h) {
+      if (mesh_.is_barrier(h) || bend_[h] <= weak_) return;
+      const double cosine = direction(mesh_, h).dot(heading);
+      if (cosine > best_cosine) {
+        best_cosine = cosine;
+        best = h;
+      }
+    });
+    return best;
+  }
+
+  TriMesh& mesh_;
+  const std::vector<float>& bend_;
+  double weak_;
+  std::vector<Index> degree_;
+};
+
+/// Takes the flags off connected pieces too short to be features.
+Index drop_short_pieces(TriMesh& mesh) {
+  constexpr double kShortest = 0.02;
+  const std::vector<Index> degree = barrier_degrees(mesh);
+  std::vector<std::uint8_t> seen(mesh.halfedge_count(), 0);
+  Index dropped = 0;
+  std::vector<Index> piece;
+  for (Index seed = 0; seed < mesh.halfedge_count(); ++seed) {
+    if (mesh.is_feature[seed] == 0 || seen[seed] != 0) continue;
+    piece.assign(1, seed);
+    seen[seed] = seen[mesh.twin[seed]] = 1;
+    double length = 0;
+    bool is_simple_loop = true;
+    bool meets_boundary = false;
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      length += (mesh.positions[mesh.to(piece[i])] - mesh.positions[mesh.from(piece[i])]).norm();
+      for (const Index v : {mesh.from(piece[i]), mesh.to(piece[i])}) {
+        is_simple_loop = is_simple_loop && degree[v] == 2;
+        meets_boundary = meets_boundary || mesh.is_boundary(mesh.vertex_out[v]);
+        for_each_outgoing(mesh, v, [&](Index h) {
+          if (mesh.is_feature[h] == 0 || seen[h] != 0) return;
+          seen[h] = seen[mesh.twin[h]] = 1;
+          piece.push_back(h);
+        });
+      }
+    }
+    if (length >= kShortest * mesh.diagonal || is_simple_loop || meets_boundary) continue;
+    for (const Index h : piece) set_feature(mesh, h, false);
+    dropped += static_cast<Index>(piece.size());
+  }
+  return dropped;
+}
+
+}  // namespace
+
+FeatureCounts find_features(TriMesh& mesh, double angle_deg) {
+  FeatureCounts counts;
+  mesh.is_feature.assign(mesh.halfedge_count(), 0);
+  if (angle_deg < 180) {
+    constexpr double kWeak = 0.6;
+    const std::vector<float> bend = bend_angles(mesh);
+    for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+      if (mesh.twin[h] == kNone || bend[h] <= angle_deg * kDegree) continue;
+      mesh.is_feature[h] = 1;
+      counts.strong_edges += h < mesh.twin[h] ? 1 : 0;
+    }
+    counts.bridging_edges = Bridges(mesh, bend, kWeak * angle_deg * kDegree).run();
+    counts.dropped_edges = drop_short_pieces(mesh);
+  }
+  counts.edges = counts.strong_edges + counts.bridging_edges - counts.dropped_edges;
+  counts.corners = find_corners(mesh);
+  return counts;
+}
+
+}  // namespace strake::import

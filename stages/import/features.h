@@ -1,0 +1,32 @@
+#pragma once
+
+#include "common/core/tri_mesh.h"
+
+namespace strake::import {
+
+struct FeatureCounts {
+  Index strong_edges = 0;    ///< bent by more than the angle
+  Index bridging_edges = 0;  ///< bent less, added between strong ones
+  Index dropped_edges = 0;   ///< of pieces too short to be a feature
+  Index edges = 0;           ///< in the end
+  Index corners = 0;
+};
+
+/// Flags crease edges (`is_feature`) and the nodes of crease and boundary lines (`is_corner`).
+///
+/// An edge is a crease where its faces' normals differ by more than `angle_deg`. Creases that fade
+/// out are continued along edges bent by more than 0.6 of that, but only as far as another crease
+/// or the boundary. Connected pieces with a total length below 2 % of the diagonal are dropped as
+/// noise, except for simple closed lines and those that reach the boundary. The normal of a sliver,
+/// which rounding of the coordinates may have turned, is taken from the neighbour across a long
+/// edge.
+///
+/// Corners are the vertices where other than two feature or boundary edges meet, or where such a
+/// line turns by more than 50 degrees, measured over 1 % of the diagonal on each side (at least
+/// three mean edges along a boundary, at most a twelfth of a closed line) and only where it turns
+/// most. Closed boundaries shorter than 4 % of the diagonal have no corners by turning.
+/// \param angle_deg  in [0, 180]; 180 flags no creases
+/// \pre build_topology has run
+FeatureCounts find_features(TriMesh& mesh, double angle_deg);
+
+}  // namespace strake::import

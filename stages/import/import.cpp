@@ -1,0 +1,185 @@
+#include "stages/import/import.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/core/error.h"
+#include "common/geometry/topology/topology.h"
+#include "stages/import/assemble.h"
+#include "stages/import/features.h"
+#include "stages/import/sheets.h"
+#include "stages/import/soup.h"
+#include "stages/import/triangulate.h"
+#include "stages/import/weld.h"
+
+namespace strake {
+namespace {
+
+using import::Repairs;
+using import::Soup;
+
+Eigen::AlignedBox3d box_of_faces(const Soup& soup) {
+  Eigen::AlignedBox3d box;
+  for (const import::Triangle& face : soup.faces) {
+    for (const Index v : face) box.extend(soup.positions[v]);
+  }
+  return box;
+}
+
+/// Where to put the origin: the middle of the box where it is far away compared to its size,
+/// rounded so that no coordinate loses a digit when it is subtracted.
+Vec3 choose_origin(const Eigen::AlignedBox3d& box) {
+  constexpr double kFar = 10;
+  const double diagonal = box.diagonal().norm();
+  if (box.center().norm() <= kFar * diagonal) return Vec3::Zero();
+  const double grid = std::exp2(std::floor(std::log2(diagonal)));
+  return (box.center() / grid).array().round().matrix() * grid;
+}
+
+double total_area(const Soup& soup) {
+  double area = 0;
+  for (const auto& [a, b, c] : soup.faces) {
+    const Vec3& p = soup.positions[a];
+    area += 0.5 * (soup.positions[b] - p).cross(soup.positions[c] - p).norm();
+  }
+  return area;
+}
+
+/// Moves the soup to its origin. \throw InputError where it has no extent or area
+void place(Soup& soup, TriMesh& frame) {
+  constexpr double kThinnest = 1e-9;
+  if (soup.faces.empty()) throw InputError("the mesh has no usable face");
+  const Eigen::AlignedBox3d box = box_of_faces(soup);
+  frame.diagonal = box.diagonal().norm();
+  if (!(frame.diagonal > 0)) throw InputError("all vertices of the mesh lie in one point");
+  if (!std::isfinite(frame.diagonal * frame.diagonal)) {
+    throw InputError("the coordinates of the mesh are too large; scale the model down");
+  }
+  frame.origin = choose_origin(box);
+  for (Vec3& p : soup.positions) p -= frame.origin;
+  if (total_area(soup) <= kThinnest * frame.diagonal * frame.diagonal) {
+    throw InputError("the mesh has no area: all its vertices lie on a line");
+  }
+}
+
+/// What was repaired, as sentences; what is no defect is not among them.
+std::vector<std::string> describe(const Repairs& repairs) {
+  std::vector<std::string> sentences;
+  const auto add = [&](std::int64_t count, const char* what) {
+    if (count > 0) sentences.push_back(fmt::format("{}: {}", what, count));
+  };
+  add(repairs.unusable_faces, "faces dropped that have no usable corners");
+  add(repairs.degenerate_faces, "faces dropped that use a vertex twice");
+  add(repairs.duplicate_faces, "faces dropped that were there twice");
+  add(repairs.welded_vertices, "vertices merged where borders coincide");
+  add(repairs.flipped_faces, "faces turned over to agree with their neighbours");
+  add(repairs.non_orientable_cuts, "edges cut because the surface has only one side");
+  add(repairs.non_manifold_edges, "edges of more than two faces taken apart");
+  add(repairs.split_vertices, "vertices copied where sheets or fans meet");
+  add(repairs.inserted_vertices, "vertices inserted into edges with the same ends as another");
+  add(repairs.collapsed_edges, "edges of no length collapsed");
+  add(repairs.flipped_edges, "edges flipped to remove triangles without area");
+  return sentences;
+}
+
+void refuse_repairs(const Repairs& repairs) {
+  const std::vector<std::string> sentences = describe(repairs);
+  if (sentences.empty()) return;
+  std::string list;
+  for (const std::string& sentence : sentences) list += "\n  " + sentence;
+  throw InputError("the mesh needs repairs, which --strict forbids:" + list);
+}
+
+void report_repairs(const Repairs& repairs, double diagonal, Report& report) {
+  report.set("repairs.unusable_faces", repairs.unusable_faces);
+  report.set("repairs.triangulated_faces", repairs.triangulated_faces);
+  report.set("repairs.degenerate_faces", repairs.degenerate_faces);
+  report.set("repairs.duplicate_faces", repairs.duplicate_faces);
+  report.set("repairs.welded_vertices", repairs.welded_vertices);
+  report.set("repairs.weld_tolerance", repairs.weld_tolerance / diagonal);
+  report.set("repairs.flipped_faces", repairs.flipped_faces);
+  report.set("repairs.non_orientable_cuts", repairs.non_orientable_cuts);
+  report.set("repairs.non_manifold_edges", repairs.non_manifold_edges);
+  report.set("repairs.split_vertices", repairs.split_vertices);
+  report.set("repairs.inserted_vertices", repairs.inserted_vertices);
+  report.set("repairs.collapsed_edges", repairs.collapsed_edges);
+  report.set("repairs.flipped_edges", repairs.flipped_edges);
+  report.set("repairs.unreferenced_vertices", repairs.unreferenced_vertices);
+  for (std::string& sentence : describe(repairs)) report.warn(std::move(sentence));
+}
+
+void report_census(const TriMesh& mesh, Report& report) {
+  const Census counts = census(mesh);
+  report.set("census.vertices", mesh.vertex_count());
+  report.set("census.faces", mesh.face_count());
+  report.set("census.components", counts.components);
+  report.set("census.boundary_loops", counts.boundary_loops);
+  report.set("census.euler_characteristic", counts.euler_characteristic);
+  report.set("census.genus", counts.genus);
+  report.set("census.diagonal", mesh.diagonal);
+}
+
+void report_features(const import::FeatureCounts& counts, Report& report) {
+  report.set("features.strong_edges", counts.strong_edges);
+  report.set("features.bridging_edges", counts.bridging_edges);
+  report.set("features.dropped_edges", counts.dropped_edges);
+  report.set("features.edges", counts.edges);
+  report.set("features.corners", counts.corners);
+}
+
+std::int64_t count_unreferenced(const PolyMesh& mesh) {
+  std::vector<std::uint8_t> used(mesh.positions.size(), 0);
+  for (const Index v : mesh.corners) {
+    if (v >= 0 && v < mesh.vertex_count()) used[v] = 1;
+  }
+  return std::count(used.begin(), used.end(), 0);
+}
+
+}  // namespace
+
+ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Observer& observer) {
+  ImportResult result;
+  Repairs repairs;
+  TriMesh frame;  // origin and diagonal
+  observer.report("triangulating", 0);
+  Soup triangles = import::triangulate(soup, repairs);
+  import::drop_degenerate_faces(triangles, repairs);
+  place(triangles, frame);
+  repairs.unreferenced_vertices = count_unreferenced(soup);
+
+  observer.report("repairing", 0.1);
+  import::weld_borders(triangles, frame.diagonal, repairs);
+  import::drop_degenerate_faces(triangles, repairs);
+  import::drop_duplicate_faces(triangles, repairs);
+  import::make_manifold(triangles, repairs);
+  if (triangles.faces.empty()) throw InputError("the mesh has no face left after the repairs");
+  if (options.strict) refuse_repairs(repairs);
+
+  observer.report("ordering", 0.5);
+  result.mesh = import::assemble(triangles);
+  result.mesh.origin = frame.origin;
+  result.mesh.diagonal = frame.diagonal;
+  observer.report("finding features", 0.7);
+  const import::FeatureCounts features =
+      import::find_features(result.mesh, options.feature_angle_deg);
+  build_wedges(result.mesh);
+  observer.report("checking", 0.8);
+  validate(result.mesh);
+  result.mesh.id = content_id(result.mesh);
+
+  result.report.set("input.vertices", soup.vertex_count());
+  result.report.set("input.faces", soup.face_count());
+  report_census(result.mesh, result.report);
+  report_repairs(repairs, frame.diagonal, result.report);
+  report_features(features, result.report);
+  observer.report("done", 1);
+  return result;
+}
+
+}  // namespace strake

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/core/poly_mesh.h"
+#include "common/core/types.h"
+
+namespace strake::import {
+
+using Triangle = std::array<Index, 3>;
+
+/// Triangles on the way from the file to a manifold; nothing is promised about how they meet.
+struct Soup {
+  std::vector<Vec3> positions;       ///< [V]
+  std::vector<Index> source_vertex;  ///< [V] index in the input, kNone of inserted vertices
+  std::vector<Triangle> faces;       ///< [F]
+  std::vector<Index> source_face;    ///< [F] index in the input
+
+  [[nodiscard]] Index vertex_count() const { return static_cast<Index>(positions.size()); }
+  [[nodiscard]] Index face_count() const { return static_cast<Index>(faces.size()); }
+  [[nodiscard]] Index halfedge_count() const { return 3 * face_count(); }
+  [[nodiscard]] Index from(Index h) const { return faces[h / 3][h % 3]; }
+  [[nodiscard]] Index to(Index h) const { return faces[h / 3][(h % 3 + 1) % 3]; }
+};
+
+/// What was changed, in elements.
+struct Repairs {
+  std::int64_t unusable_faces = 0;      ///< non-finite, out of range, fewer than three corners
+  std::int64_t triangulated_faces = 0;  ///< polygons cut into triangles; no defect
+  std::int64_t welded_vertices = 0;
+  std::int64_t degenerate_faces = 0;  ///< a corner twice
+  std::int64_t duplicate_faces = 0;
+  std::int64_t non_manifold_edges = 0;
+  std::int64_t inserted_vertices = 0;  ///< to tell apart edges with the same two end points
+  std::int64_t flipped_faces = 0;
+  std::int64_t non_orientable_cuts = 0;    ///< edges
+  std::int64_t split_vertices = 0;         ///< copies made
+  std::int64_t flipped_edges = 0;          ///< to remove triangles without area
+  std::int64_t collapsed_edges = 0;        ///< of zero length
+  std::int64_t unreferenced_vertices = 0;  ///< dropped; no defect
+  double weld_tolerance = 0;               ///< model units
+};
+
+/// Half-edges of a soup grouped by edge: those with the same two vertices, in order of index.
+class EdgeGroups {
+ public:
+  explicit EdgeGroups(const Soup& soup);
+  [[nodiscard]] Index size() const { return static_cast<Index>(offsets_.size()) - 1; }
+  [[nodiscard]] std::span<const Index> operator[](Index group) const {
+    return {halfedges_.data() + offsets_[group],
+            static_cast<std::size_t>(offsets_[group + 1] - offsets_[group])};
+  }
+
+ private:
+  std::vector<Index> offsets_;
+  std::vector<Index> halfedges_;
+};
+
+/// Removes faces with a repeated corner.
+void drop_degenerate_faces(Soup& soup, Repairs& repairs);
+
+/// Removes faces with the same three vertices as an earlier one, in whichever order.
+void drop_duplicate_faces(Soup& soup, Repairs& repairs);
+
+}  // namespace strake::import

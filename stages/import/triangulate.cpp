@@ -1,0 +1,246 @@
+#include "stages/import/triangulate.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <vector>
+
+namespace strake::import {
+namespace {
+
+Vec3 newell_normal(const std::vector<Vec3>& positions, std::span<const Index> polygon) {
+  Vec3 normal = Vec3::Zero();
+  const Vec3& base = positions[polygon[0]];
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+    normal += (positions[polygon[i]] - base).cross(positions[polygon[i + 1]] - base);
+  }
+  return normal;
+}
+
+/// Height of a triangle over its longest edge divided by that edge; negative where it is turned
+/// over against `normal`, 0 without area.
+double shape(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal) {
+  const double longest =
+      std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  if (!(longest > 0)) return 0;
+  const Vec3 area = (b - a).cross(c - a);
+  return std::copysign(area.norm(), area.dot(normal)) / longest;
+}
+
+/// Whether to cut a quad between its corners 0 and 2 rather than 1 and 3.
+bool cut_from_first_corner(const std::vector<Vec3>& positions, std::span<const Index> quad) {
+  const Vec3 normal = newell_normal(positions, quad);
+  const auto worst = [&](int i) {
+    const auto at = [&](int k) -> const Vec3& { return positions[quad[(i + k) % 4]]; };
+    return std::min(shape(at(0), at(1), at(2), normal), shape(at(0), at(2), at(3), normal));
+  };
+  constexpr double kTie = 1e-6;
+  const double difference = worst(0) - worst(1);
+  if (std::abs(difference) > kTie) return difference > 0;
+  // The same cut for equal quads that begin elsewhere or are turned over.
+  return std::min(quad[0], quad[2]) < std::min(quad[1], quad[3]);
+}
+
+/// Cuts ears off one polygon, in two dimensions.
+class EarClipper {
+ public:
+  EarClipper(const std::vector<Vec3>& positions, std::span<const Index> polygon)
+      : count_(static_cast<int>(polygon.size())) {
+    const Vec3 normal = newell_normal(positions, polygon).normalized();
+    const Vec3 x = normal.unitOrthogonal();
+    const Vec3 y = normal.cross(x);
+    const Vec3& base = positions[polygon[0]];
+    for (int i = 0; i < count_; ++i) {
+      const Vec3 p = positions[polygon[i]] - base;
+      points_.emplace_back(p.dot(x), p.dot(y));
+      next_.push_back((i + 1) % count_);
+      previous_.push_back((i + count_ - 1) % count_);
+    }
+    version_.assign(count_, 0);
+    for (int i = 0; i < count_; ++i) push(i);
+    for (int i = 0; i < count_; ++i) {
+      if (ear_shape(i) <= 0) reflex_.push_back(i);
+    }
+  }
+
+  /// Calls `emit(a, b, c)` with corner numbers for each triangle.
+  template <typename Emit>
+  void run(const Emit& emit) {
+    int left = count_;
+    while (left > 3) {
+      const int ear = next_ear();
+      emit(previous_[ear], ear, next_[ear]);
+      clip(ear);
+      --left;
+    }
+    const int last = *std::find_if(next_.begin(), next_.end(), [](int i) { return i >= 0; });
+    emit(previous_[last], last, next_[last]);
+  }
+
+ private:
+  struct Candidate {
+    double shape;
+    int corner;
+    int version;
+    bool operator<(const Candidate& other) const {
+      return shape != other.shape ? shape < other.shape : corner > other.corner;
+    }
+  };
+
+  static double cross(const Vec2& a, const Vec2& b, const Vec2& c) {
+    return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+  }
+
+  [[nodiscard]] double ear_shape(int i) const {
+    const Vec2& a = points_[previous_[i]];
+    const Vec2& b = points_[i];
+    const Vec2& c = points_[next_[i]];
+    const double longest =
+        std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+    return longest > 0 ? cross(a, b, c) / longest : 0;
+  }
+
+  [[nodiscard]] bool is_free(int i) const {
+    const Vec2& a = points_[previous_[i]];
+    const Vec2& b = points_[i];
+    const Vec2& c = points_[next_[i]];
+    return std::none_of(reflex_.begin(), reflex_.end(), [&](int r) {
+      const Vec2& p = points_[r];
+      if (next_[r] < 0 || p == a || p == b || p == c) return false;
+      return cross(a, b, p) >= 0 && cross(b, c, p) >= 0 && cross(c, a, p) >= 0;
+    });
+  }
+
+  void push(int i) { candidates_.push({ear_shape(i), i, ++version_[i]}); }
+
+  /// The best-shaped ear; where no corner is an ear (the outline crosses itself), the corner that
+  /// comes closest to one. Ears found blocked are not looked at again until nothing else is left.
+  int next_ear() {
+    while (true) {
+      while (!candidates_.empty() && candidates_.top().shape > 0) {
+        const Candidate best = candidates_.top();
+        candidates_.pop();
+        if (next_[best.corner] < 0 || best.version != version_[best.corner]) continue;
+        if (is_free(best.corner)) return best.corner;
+        blocked_.push_back(best);
+      }
+      std::erase_if(blocked_, [&](const Candidate& candidate) {
+        return next_[candidate.corner] < 0 || candidate.version != version_[candidate.corner];
+      });
+      if (!clipped_since_retry_) break;
+      for (const Candidate& candidate : blocked_) candidates_.push(candidate);
+      blocked_.clear();
+      clipped_since_retry_ = false;
+    }
+    return blocked_.empty() ? flattest_corner() : blocked_.front().corner;
+  }
+
+  [[nodiscard]] int flattest_corner() const {
+    int best = -1;
+    double best_shape = 0;
+    for (int i = 0; i < count_; ++i) {
+      if (next_[i] < 0) continue;
+      const double value = std::abs(ear_shape(i));
+      if (best < 0 || value < best_shape) best = i;
+      if (best == i) best_shape = value;
+    }
+    return best;
+  }
+
+  void clip(int ear) {
+    const int before = previous_[ear];
+    const int after = next_[ear];
+    next_[before] = after;
+    previous_[after] = before;
+    next_[ear] = -1;
+    clipped_since_retry_ = true;
+    push(before);
+    push(after);
+    std::erase_if(reflex_, [&](int r) { return next_[r] < 0 || ear_shape(r) > 0; });
+  }
+
+  int count_;
+  std::vector<Vec2> points_;
+  std::vector<int> next_;  ///< -1 once cut off
+  std::vector<int> previous_;
+  std::vector<int> version_;
+  std::vector<int> reflex_;
+  std::priority_queue<Candidate> candidates_;
+  std::vector<Candidate> blocked_;
+  bool clipped_since_retry_ = false;
+};
+
+class Triangulator {
+ public:
+  Triangulator(const PolyMesh& mesh, Repairs& repairs) : mesh_(mesh), repairs_(repairs) {}
+
+  Soup run() {
+    soup_.positions = mesh_.positions;
+    soup_.source_vertex.resize(mesh_.positions.size());
+    for (Index v = 0; v < mesh_.vertex_count(); ++v) soup_.source_vertex[v] = v;
+    std::size_t triangles = 0;
+    for (Index f = 0; f < mesh_.face_count(); ++f) {
+      triangles += std::max<std::size_t>(mesh_.face(f).size(), 2) - 2;
+    }
+    soup_.faces.reserve(triangles);
+    soup_.source_face.reserve(triangles);
+    for (Index f = 0; f < mesh_.face_count(); ++f) add_face(f);
+    return std::move(soup_);
+  }
+
+ private:
+  void add_face(Index f) {
+    const auto face = mesh_.face(f);
+    const bool usable = std::all_of(face.begin(), face.end(), [&](Index v) {
+      return v >= 0 && v < mesh_.vertex_count() && mesh_.positions[v].allFinite();
+    });
+    if (!usable || face.size() < 3) {
+      ++repairs_.unusable_faces;
+      return;
+    }
+    // Triangles with a repeated corner are counted as degenerate later on.
+    if (face.size() == 3) return add({face[0], face[1], face[2]}, f);
+    polygon_.clear();
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      if (face[i] != face[(i + 1) % face.size()]) polygon_.push_back(face[i]);
+    }
+    if (polygon_.size() < 3) {
+      ++repairs_.degenerate_faces;
+      return;
+    }
+    ++repairs_.triangulated_faces;
+    add_polygon(f);
+  }
+
+  void add_polygon(Index f) {
+    const auto& p = polygon_;
+    if (p.size() == 4) {
+      const bool first = cut_from_first_corner(mesh_.positions, p);
+      add(first ? Triangle{p[0], p[1], p[2]} : Triangle{p[1], p[2], p[3]}, f);
+      add(first ? Triangle{p[0], p[2], p[3]} : Triangle{p[1], p[3], p[0]}, f);
+    } else if (p.size() == 3 || !(newell_normal(mesh_.positions, p).squaredNorm() > 0)) {
+      for (std::size_t i = 1; i + 1 < p.size(); ++i) add({p[0], p[i], p[i + 1]}, f);
+    } else {
+      EarClipper(mesh_.positions, p).run([&](int a, int b, int c) { add({p[a], p[b], p[c]}, f); });
+    }
+  }
+
+  void add(const Triangle& triangle, Index f) {
+    soup_.faces.push_back(triangle);
+    soup_.source_face.push_back(f);
+  }
+
+  const PolyMesh& mesh_;
+  Repairs& repairs_;
+  Soup soup_;
+  std::vector<Index> polygon_;
+};
+
+}  // namespace
+
+Soup triangulate(const PolyMesh& mesh, Repairs& repairs) {
+  return Triangulator(mesh, repairs).run();
+}
+
+}  // namespace strake::import
