@@ -13,6 +13,8 @@
 namespace strake::evaluation {
 namespace {
 
+constexpr double kOnEdge = 1e-7;      // barycentric; nearer than this to an edge is on it
+constexpr double kSamePlace = 1e-10;  // of the diagonal; distances that differ by less are equal
 constexpr std::int64_t kBatch = 1 << 16;  // between two reports of progress
 
 struct OneWay {
@@ -34,15 +36,39 @@ double degrees_between(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
 }
 
-OneWay measure(const SurfaceWithVertices& from, const MeasuredSurface& to, std::int64_t samples,
-               const char* phase, Observer& observer) {
+/// The angle between a sample's normal and the surface's at the sample's foot.
+///
+/// Where the foot lies on an edge or vertex, as it does for all samples beyond a convex edge, the
+/// surface has several normals there and rounding would choose: the one nearest to the sample's
+/// counts.
+double normal_deviation(const SurfaceSample& sample, const MeasuredSurface& to,
+                        const ClosestPoint& foot, double tolerance) {
+  double least = degrees_between(sample.normal, to.normal(foot.triangle));
+  const auto& weights = foot.barycentric;
+  if (*std::min_element(weights.begin(), weights.end()) > kOnEdge) return least;
+  const SurfaceDistance& distance = to.distance();
+  const double reach = foot.distance + tolerance;
+  const auto look_at = [&](Index t) {
+    const auto& [a, b, c] = distance.triangles()[t];
+    const auto& p = distance.positions();
+    if (closest_point_on_triangle(sample.position, p[a], p[b], p[c]).distance <= reach) {
+      least = std::min(least, degrees_between(sample.normal, to.normal(t)));
+    }
+    return false;  // keeps the reach as it is, so that every triangle within is looked at
+  };
+  static_cast<void>(distance.closest_if(sample.position, reach, look_at));
+  return least;
+}
+
+OneWay measure(const SurfaceWithVertices& from, const MeasuredSurface& to, double diagonal,
+               std::int64_t samples, const char* phase, Observer& observer) {
   std::vector<double> distance(static_cast<std::size_t>(samples));
   std::vector<double> angle(distance.size());
   in_batches(samples, phase, observer, [&](std::int64_t i) {
     const SurfaceSample sample = from.surface.sample(i, samples);
     const ClosestPoint foot = to.distance().closest(sample.position);
     distance[i] = foot.distance;
-    angle[i] = degrees_between(sample.normal, to.normal(foot.triangle));
+    angle[i] = normal_deviation(sample, to, foot, kSamePlace * diagonal);
   });
   std::vector<double> at_vertex(from.vertices.size());
   in_batches(static_cast<std::int64_t>(at_vertex.size()), phase, observer, [&](std::int64_t i) {
@@ -92,10 +118,10 @@ void report_way(const std::string& way, const OneWay& measured, double diagonal,
 
 void report_deviation(const SurfaceWithVertices& reference, const SurfaceWithVertices& candidate,
                       double diagonal, std::int64_t samples, Observer& observer, Report& report) {
-  const OneWay to_reference =
-      measure(candidate, reference.surface, samples, "distances to the reference", observer);
-  const OneWay from_reference =
-      measure(reference, candidate.surface, samples, "distances from the reference", observer);
+  const OneWay to_reference = measure(candidate, reference.surface, diagonal, samples,
+                                      "distances to the reference", observer);
+  const OneWay from_reference = measure(reference, candidate.surface, diagonal, samples,
+                                        "distances from the reference", observer);
   report.set("distance.samples", samples);
   report_way("", both(to_reference, from_reference), diagonal, report);
   report_way("to_reference.", to_reference, diagonal, report);

@@ -19,8 +19,9 @@ struct SurfaceWithVertices {
 ///
 /// From each surface `samples` area-weighted places are taken to their nearest point on the other.
 /// RMS and mean are over these; the maximum is over all vertices too. A normal's deviation is the
-/// angle between the triangles' normals at a sample and at its nearest point. The combined RMS is
-/// the root of the mean of both squares, the combined mean the mean of both.
+/// angle between the triangles' normals at a sample and at its nearest point; on an edge or vertex
+/// the nearest of the normals there. The combined RMS is the root of the mean of both squares, the
+/// combined mean the mean of both.
 void report_deviation(const SurfaceWithVertices& reference, const SurfaceWithVertices& candidate,
                       double diagonal, std::int64_t samples, Observer& observer, Report& report);
 

@@ -27,7 +27,7 @@ class EarCutter {
       : positions_(positions),
         normal_(newell_normal(positions, face)),
         ring_(face.begin(), face.end()),
-        test_empty_(face.size() <= kLargePolygon) {}
+        take_first_(face.size() > kLargePolygon) {}
 
   void cut(std::vector<std::array<Index, 3>>& triangles) {
     while (ring_.size() > 3) {
@@ -54,19 +54,23 @@ class EarCutter {
     });
   }
 
-  [[nodiscard]] std::size_t best_ear() const {
+  std::size_t best_ear() {
     double best = -1;
     std::size_t best_at = 1;  // where no ear is valid the polygon crosses itself: go on as a fan
-    for (std::size_t i = 0; i < ring_.size(); ++i) {
+    for (std::size_t k = 0; k < ring_.size(); ++k) {
+      const std::size_t i = (start_ + k) % ring_.size();
       const Index a = before(i);
       const Index b = ring_[i];
       const Index c = after(i);
       if (area_along_normal(a, b, c) <= 0) continue;
       const double shape = smallest_angle(positions_[a], positions_[b], positions_[c]);
-      if (shape <= best || (test_empty_ && !is_empty(a, b, c))) continue;
+      if (shape <= best || !is_empty(a, b, c)) continue;
       best = shape;
       best_at = i;
-      if (!test_empty_) break;
+      if (take_first_) {
+        start_ = i + 1;  // step on, so that ears do not gather around one corner
+        break;
+      }
     }
     return best_at;
   }
@@ -74,7 +78,8 @@ class EarCutter {
   std::span<const Vec3> positions_;
   Vec3 normal_;
   std::vector<Index> ring_;
-  bool test_empty_;
+  bool take_first_;
+  std::size_t start_ = 0;  // where the search for the next ear begins
 };
 
 void triangulate_quad(std::span<const Vec3> positions, std::span<const Index> c,

@@ -26,7 +26,8 @@ bool is_concave_face(std::span<const Vec3> positions, std::span<const Index> fac
 /// one where both or neither do. A larger polygon is cut ear by ear, the best shaped ear first; one
 /// that crosses itself ends as a fan. Polygons with fewer than 3 corners give nothing.
 /// \param triangles  appended to
-/// Cost O(n^3) for n corners (a handful); O(n^2) beyond 256 corners, without the emptiness test.
+/// Cost O(n^3) for n corners (a handful). Beyond 256 corners the first ear found is cut instead of
+/// the best shaped: O(n^2) as a rule.
 void triangulate_face(std::span<const Vec3> positions, std::span<const Index> face,
                       std::vector<std::array<Index, 3>>& triangles);
 

@@ -1,0 +1,118 @@
+#include "common/geometry/poly_topology/face_shape.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "tests/unit/evaluate/shapes.h"
+
+namespace strake {
+namespace {
+
+/// A planar polygon, turned somewhere into space.
+PolyMesh polygon(const std::vector<Vec2>& outline) {
+  const Eigen::AngleAxisd turn(0.7, Vec3(1, 2, 3).normalized());
+  PolyMesh mesh;
+  for (const Vec2& p : outline) mesh.positions.push_back(turn * Vec3(p.x(), p.y(), 0.4));
+  std::vector<Index> face(outline.size());
+  std::iota(face.begin(), face.end(), 0);
+  mesh.add_face(face);
+  return mesh;
+}
+
+double area_of(const std::vector<Vec2>& outline) {  // shoelace
+  double sum = 0;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2& a = outline[i];
+    const Vec2& b = outline[(i + 1) % outline.size()];
+    sum += a.x() * b.y() - a.y() * b.x();
+  }
+  return sum / 2;
+}
+
+std::vector<Vec2> star(int points) {
+  std::vector<Vec2> outline;
+  for (int i = 0; i < 2 * points; ++i) {
+    const double angle = std::numbers::pi * i / points;
+    const double radius = i % 2 == 0 ? 1.0 : 0.35;
+    outline.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+  }
+  return outline;
+}
+
+const std::vector<Vec2> kDart = {{0, 0}, {2, -1}, {0.5, 0.4}, {1, 3}};
+const std::vector<Vec2> kL = {{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 2}, {0, 2}};
+const std::vector<Vec2> kKite = {{0, 0}, {2, -0.5}, {3, 0}, {2, 0.5}};
+
+TEST(FaceShape, NewellNormalIsTwiceTheArea) {
+  for (const auto& outline : {kDart, kL, kKite, star(5)}) {
+    const PolyMesh mesh = polygon(outline);
+    EXPECT_NEAR(newell_normal(mesh.positions, mesh.face(0)).norm(), 2 * area_of(outline), 1e-12);
+  }
+}
+
+// Triangles that all face along the normal and whose areas add up to the polygon's cover it once.
+TEST(FaceShape, TrianglesCoverPolygonsOnce) {
+  for (const auto& outline : {kDart, kL, kKite, star(5), star(200)}) {
+    const PolyMesh mesh = polygon(outline);
+    const Vec3 normal = newell_normal(mesh.positions, mesh.face(0)).normalized();
+    std::vector<std::array<Index, 3>> triangles;
+    triangulate_face(mesh.positions, mesh.face(0), triangles);
+    ASSERT_EQ(triangles.size(), outline.size() - 2);
+    double sum = 0;
+    for (const auto& [a, b, c] : triangles) {
+      const Vec3 area =
+          (mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a]) / 2;
+      EXPECT_GT(area.dot(normal), 0);
+      sum += area.dot(normal);
+    }
+    EXPECT_NEAR(sum, area_of(outline), 1e-11);
+  }
+}
+
+TEST(FaceShape, ConvexQuadIsSplitAlongTheShorterDiagonal) {
+  const PolyMesh mesh = polygon(kKite);
+  std::vector<std::array<Index, 3>> triangles;
+  triangulate_face(mesh.positions, mesh.face(0), triangles);
+  for (const auto& triangle : triangles) {
+    EXPECT_EQ(std::count(triangle.begin(), triangle.end(), 1), 1);
+    EXPECT_EQ(std::count(triangle.begin(), triangle.end(), 3), 1);
+  }
+}
+
+TEST(FaceShape, ConcavityIsFoundFromEveryStartAndOnBothSides) {
+  const auto check = [](std::vector<Vec2> outline, bool expected) {
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      std::rotate(outline.begin(), outline.begin() + 1, outline.end());
+      const PolyMesh mesh = polygon(outline);
+      EXPECT_EQ(is_concave_face(mesh.positions, mesh.face(0)), expected);
+      const PolyMesh back = polygon({outline.rbegin(), outline.rend()});
+      EXPECT_EQ(is_concave_face(back.positions, back.face(0)), expected);
+    }
+  };
+  check(kDart, true);
+  check(kL, true);
+  check(kKite, false);
+  check({{0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}}, false);  // a straight corner is not concave
+}
+
+TEST(FaceShape, EveryTriangleKnowsItsFace) {
+  const PolyMesh mesh = shapes::joined(polygon(kL), shapes::square(2, 0));
+  const FaceTriangles all = triangulate_faces(mesh);
+  ASSERT_EQ(all.face.size(), all.corners.size());
+  std::vector<std::size_t> count(static_cast<std::size_t>(mesh.face_count()));
+  for (std::size_t t = 0; t < all.face.size(); ++t) {
+    ++count[all.face[t]];
+    const std::span<const Index> face = mesh.face(all.face[t]);
+    for (const Index v : all.corners[t]) {
+      EXPECT_NE(std::find(face.begin(), face.end(), v), face.end());
+    }
+  }
+  for (Index f = 0; f < mesh.face_count(); ++f) EXPECT_EQ(count[f] + 2, mesh.face(f).size());
+}
+
+}  // namespace
+}  // namespace strake
