@@ -74,12 +74,12 @@ FaceChart unfold(const TriMesh& mesh, const FaceChart& chart, Index h) {
 }
 
 std::optional<FaceExit> find_exit(const FaceChart& chart, const Vec2& point,
-                                  const Vec2& displacement, Index entry) {
+                                  const Vec2& displacement, const std::array<Index, 2>& closed) {
   FaceExit best;
   best.step = 1;
   for (int i = 0; i < 3; ++i) {
     const Index h = 3 * chart.face + i;
-    if (h == entry) continue;
+    if (h == closed[0] || h == closed[1]) continue;
     const Vec2& a = chart.corner[i];
     const Vec2 edge = chart.corner[(i + 1) % 3] - a;
     const double speed = -cross2(edge, displacement);  // towards the outside

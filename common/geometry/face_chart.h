@@ -43,9 +43,10 @@ struct FaceExit {
 };
 
 /// Follows `displacement` from `point` inside the chart's face; nullopt where it ends inside.
-/// \param entry half-edge of this face through which the line came in, or kNone
+/// \param closed half-edges of this face that are no way out: the one through which the line came
+///               in, or the two at the vertex it starts from; kNone for none
 std::optional<FaceExit> find_exit(const FaceChart& chart, const Vec2& point,
-                                  const Vec2& displacement, Index entry);
+                                  const Vec2& displacement, const std::array<Index, 2>& closed);
 
 /// A way to leave a vertex: into `face`, whose corner at the vertex is half-edge `corner`, at
 /// `angle` counter-clockwise from that half-edge (radians, within the corner).

@@ -2,8 +2,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include <queue>
-
 #include "common/geometry/frames.h"
 
 namespace strake {
@@ -94,29 +92,6 @@ std::vector<double> wedge_areas(const TriMesh& mesh) {
     for (int i = 0; i < 3; ++i) areas[mesh.face_wedges[f][i]] += third;
   }
   return areas;
-}
-
-std::pair<std::vector<Index>, Index> face_components(const TriMesh& mesh) {
-  std::vector<Index> component(mesh.face_count(), kNone);
-  Index count = 0;
-  std::vector<Index> stack;
-  for (Index start = 0; start < mesh.face_count(); ++start) {
-    if (component[start] != kNone) continue;
-    component[start] = count;
-    stack.push_back(start);
-    while (!stack.empty()) {
-      const Index f = stack.back();
-      stack.pop_back();
-      for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-        const Index t = mesh.twin[h];
-        if (t == kNone || component[TriMesh::face_of(t)] != kNone) continue;
-        component[TriMesh::face_of(t)] = count;
-        stack.push_back(TriMesh::face_of(t));
-      }
-    }
-    ++count;
-  }
-  return {std::move(component), count};
 }
 
 }  // namespace strake

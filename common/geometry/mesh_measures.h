@@ -19,7 +19,4 @@ std::vector<double> wedge_areas(const TriMesh& mesh);
 /// Angle at corner h of its face, radians in [0, pi].
 double corner_angle(const TriMesh& mesh, Index h);
 
-/// [F] index of the edge-connected component of each face, numbered by first face; and their count.
-std::pair<std::vector<Index>, Index> face_components(const TriMesh& mesh);
-
 }  // namespace strake

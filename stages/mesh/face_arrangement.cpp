@@ -1,0 +1,167 @@
+#include "stages/mesh/face_arrangement.h"
+
+#include <algorithm>
+#include <string>
+
+#include "common/core/error.h"
+
+namespace strake {
+namespace {
+
+/// Parameter along a-b of its crossing with c-d, both in barycentric coordinates of a triangle.
+double crossing_parameter(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  // With weights summing to one, the first two coordinates are affine coordinates of the plane.
+  const auto side = [&](const Vec3& p) {
+    return (d[0] - c[0]) * (p[1] - c[1]) - (d[1] - c[1]) * (p[0] - c[0]);
+  };
+  const double at_a = side(a);
+  const double at_b = side(b);
+  const double span = at_a - at_b;
+  return span != 0 ? std::clamp(at_a / span, 0.0, 1.0) : 0.5;
+}
+
+}  // namespace
+
+void FaceArrangement::label(Index edge, EdgeKind kind, Index line, Index chord) {
+  const auto size = static_cast<std::size_t>(overlay_.graph.dart_count()) / 2;
+  overlay_.kind.resize(size);
+  overlay_.line.resize(size);
+  overlay_.chord.resize(size);
+  overlay_.kind[edge] = kind;
+  overlay_.line[edge] = line;
+  overlay_.chord[edge] = chord;
+}
+
+void FaceArrangement::walk_outline(Index face, Index first) {
+  const std::size_t nodes = overlay_.nodes.size();
+  if (position_.size() < nodes) {
+    position_.resize(nodes + nodes / 2);
+    outline_dart_.resize(position_.size());
+    barycentric_.resize(position_.size());
+  }
+  outline_length_ = 0;
+  Index corner = 0;  // of the edge the walk is on
+  Index d = first;
+  do {
+    const Index node = overlay_.graph.from(d);
+    position_[node] = outline_length_++;
+    outline_dart_[node] = d;
+    const SurfaceNode& info = overlay_.nodes[node];
+    if (info.vertex != kNone) {
+      while (mesh_.faces[face][corner] != info.vertex) ++corner;
+      barycentric_[node] = Vec3::Unit(corner);
+    } else if (info.face == face) {
+      barycentric_[node] = Vec3(info.barycentric[0], info.barycentric[1], info.barycentric[2]);
+    } else {  // stored in the face across the edge
+      // The twin starts where this edge ends: its origin's weight is the share of the way here.
+      const double lambda = info.barycentric[mesh_.twin[3 * face + corner] % 3];
+      barycentric_[node] = (1 - lambda) * Vec3::Unit(corner) + lambda * Vec3::Unit((corner + 1) % 3);
+    }
+    d = overlay_.graph.next(d);
+  } while (d != first);
+}
+
+void FaceArrangement::insert(Index face, Index first, const std::vector<Chord>& chords) {
+  walk_outline(face, first);
+  placed_.clear();
+  for (std::size_t id = 0; id < chords.size(); ++id) {
+    insert_chord(face, chords[id], static_cast<Index>(id));
+  }
+}
+
+/// The dart at the start of a chord whose cell the chord enters: at a corner of the face the cells
+/// between earlier chords are told apart by where those end on the outline.
+Index FaceArrangement::start_corner(const Chord& chord) const {
+  const DartGraph& graph = overlay_.graph;
+  const auto around = [&](Index position) {
+    return (position - position_[chord.from] + outline_length_) % outline_length_;
+  };
+  const Index wanted = around(position_[chord.to]);
+  Index best = outline_dart_[chord.from];
+  for (Index d = graph.rotate_ccw(best);; d = graph.rotate_ccw(d)) {
+    const Index id = overlay_.chord[DartGraph::edge_of(d)];
+    if (id == kNone) break;  // the outline again
+    const Placed& other = placed_[id];
+    const Index far = other.from_position == position_[chord.from] ? other.to_position
+                                                                   : other.from_position;
+    if (around(far) > wanted) break;
+    best = d;
+  }
+  return best;
+}
+
+/// The piece of a chord on the outline of the cell at `corner` that the new chord crosses next.
+Index FaceArrangement::next_crossing(Index corner) const {
+  Index best = kNone;
+  double best_at = 2;
+  Index d = corner;
+  do {
+    const Index id = overlay_.chord[DartGraph::edge_of(d)];
+    if (id != kNone && placed_[id].pending && placed_[id].at < best_at) {
+      best = d;
+      best_at = placed_[id].at;
+    }
+    d = overlay_.graph.next(d);
+  } while (d != corner);
+  return best;
+}
+
+/// Leads the new chord from `corner` over `dart`; returns the corner it goes on from.
+Index FaceArrangement::cross(Index corner, Index dart, Index face, const Vec3& barycentric) {
+  DartGraph& graph = overlay_.graph;
+  const auto node = static_cast<Index>(overlay_.nodes.size());
+  SurfaceNode info;
+  info.face = face;
+  info.position = Vec3::Zero();
+  for (int i = 0; i < 3; ++i) {
+    info.barycentric[i] = barycentric[i];
+    info.position += barycentric[i] * mesh_.positions[mesh_.faces[face][i]];
+  }
+  overlay_.nodes.push_back(info);
+  const Index crossed = DartGraph::edge_of(dart);
+  const Index second = graph.split_edge(dart, node);
+  label(DartGraph::edge_of(second), overlay_.kind[crossed], overlay_.line[crossed],
+        overlay_.chord[crossed]);
+  graph.connect(corner, second);
+  return DartGraph::opposite(dart);
+}
+
+void FaceArrangement::insert_chord(Index face, const Chord& chord, Index id) {
+  DartGraph& graph = overlay_.graph;
+  Placed own;
+  own.from_position = position_[chord.from];
+  own.to_position = position_[chord.to];
+  own.a = barycentric_[chord.from];
+  own.b = barycentric_[chord.to];
+  const auto [low, high] = std::minmax(own.from_position, own.to_position);
+  Index pending = 0;
+  for (Placed& other : placed_) {
+    const auto within = [low = low, high = high](Index p) { return low < p && p < high; };
+    const auto on = [low = low, high = high](Index p) { return p == low || p == high; };
+    other.pending = !on(other.from_position) && !on(other.to_position) &&
+                    within(other.from_position) != within(other.to_position);
+    if (!other.pending) continue;
+    ++pending;
+    other.at = crossing_parameter(own.a, own.b, other.a, other.b);
+  }
+  Index corner = start_corner(chord);
+  double at = 0;
+  for (; pending > 0; --pending) {
+    const Index dart = next_crossing(corner);
+    if (dart == kNone) {
+      throw AlgorithmError("face " + std::to_string(face) + ": its chords do not form an arrangement");
+    }
+    Placed& other = placed_[overlay_.chord[DartGraph::edge_of(dart)]];
+    other.pending = false;
+    at = std::max(at, other.at);
+    corner = cross(corner, dart, face, own.a + at * (own.b - own.a));
+    label(graph.dart_count() / 2 - 1, EdgeKind::line, chord.line, id);
+  }
+  Index end = corner;
+  while (graph.from(end) != chord.to) end = graph.next(end);
+  graph.connect(corner, end);
+  label(graph.dart_count() / 2 - 1, EdgeKind::line, chord.line, id);
+  placed_.push_back(own);
+}
+
+}  // namespace strake

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <vector>
+
+#include "stages/mesh/overlay.h"
+
+namespace strake {
+
+/// Inserts the chords of one face after the other into an overlay.
+class FaceArrangement {
+ public:
+  struct Chord {
+    Index from = kNone;  ///< node on the outline of the face
+    Index to = kNone;    ///< another
+    Index line = kNone;
+  };
+
+  FaceArrangement(const TriMesh& mesh, Overlay& overlay) : mesh_(mesh), overlay_(overlay) {}
+
+  /// \param first  dart that starts the outline at corner 0 of the face
+  /// \param chords whose ends lie on the outline; at most one ends in each node but the corners
+  void insert(Index face, Index first, const std::vector<Chord>& chords);
+
+ private:
+  struct Placed {
+    Index from_position = 0;  ///< along the outline
+    Index to_position = 0;
+    Vec3 a;  ///< barycentric
+    Vec3 b;
+    bool pending = false;  ///< still to be crossed by the chord being inserted
+    double at = 0;         ///< where, along that chord
+  };
+
+  void walk_outline(Index face, Index first);
+  void insert_chord(Index face, const Chord& chord, Index id);
+  Index start_corner(const Chord& chord) const;
+  Index next_crossing(Index corner) const;
+  Index cross(Index corner, Index dart, Index face, const Vec3& barycentric);
+  void label(Index edge, EdgeKind kind, Index line, Index chord);
+
+  const TriMesh& mesh_;
+  Overlay& overlay_;
+  std::vector<Index> position_;      ///< [nodes] along the outline of the present face
+  std::vector<Index> outline_dart_;  ///< [nodes] outline dart that leaves the node
+  std::vector<Vec3> barycentric_;    ///< [nodes] in the present face
+  Index outline_length_ = 0;
+  std::vector<Placed> placed_;
+};
+
+}  // namespace strake

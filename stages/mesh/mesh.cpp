@@ -1,0 +1,184 @@
+#include "stages/mesh/mesh.h"
+
+#include <algorithm>
+#include <string>
+
+#include "common/core/error.h"
+#include "common/geometry/poly_topology/poly_topology.h"
+#include "common/geometry/topology/topology.h"
+#include "stages/mesh/overlay.h"
+#include "stages/mesh/partition.h"
+#include "stages/mesh/polygon_graph.h"
+#include "stages/mesh/simplify.h"
+
+namespace strake {
+namespace {
+
+/// Edges below this share of the local line distance are contracted.
+constexpr double kShortestEdge = 0.3;
+/// A component whose lines make fewer cells than a tetrahedron has keeps its triangles.
+constexpr Index kFewestCells = 4;
+
+/// The wanted edge length where a node lies: the smaller of the two line distances.
+double local_size(const TriMesh& mesh, const LineSet& lines, const SurfaceNode& node) {
+  double size = 0;
+  for (int i = 0; i < 3; ++i) {
+    const Index w = mesh.face_wedges[node.face][i];
+    size += node.barycentric[i] *
+            std::min(lines.spacing_along_min[w], lines.spacing_along_max[w]);
+  }
+  return size;
+}
+
+/// Components that the reduced overlay does not represent by cells enough.
+std::vector<char> starved_components(const TriMesh& mesh, const std::vector<Index>& component,
+                                     const Overlay& overlay) {
+  const Index count = *std::max_element(component.begin(), component.end()) + 1;
+  const DartGraph& graph = overlay.graph;
+  std::vector<Index> cells(count, 0);
+  std::vector<char> seen(graph.dart_count(), 0);
+  for (Index d = 0; d < graph.dart_count(); ++d) {
+    if (!graph.is_alive(d) || seen[d] != 0) continue;
+    bool hole = false;
+    for (Index at = d; seen[at] == 0; at = graph.next(at)) {
+      seen[at] = 1;
+      hole = hole || (overlay.kind[DartGraph::edge_of(at)] == EdgeKind::boundary && at % 2 == 1);
+    }
+    if (!hole) ++cells[component[overlay.nodes[graph.from(d)].face]];
+  }
+  std::vector<char> open(count, 0);  // one cell is enough for a surface with boundary
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    if (mesh.is_boundary(h)) open[component[TriMesh::face_of(h)]] = 1;
+  }
+  std::vector<char> starved(count, 0);
+  for (Index c = 0; c < count; ++c) starved[c] = cells[c] < (open[c] != 0 ? 1 : kFewestCells);
+  return starved;
+}
+
+/// Protects the triangle edges of some components from removal.
+void keep_triangles(const std::vector<Index>& component, const std::vector<char>& keep,
+                    Overlay& overlay) {
+  for (Index e = 0; e < overlay.graph.dart_count() / 2; ++e) {
+    const SurfaceNode& node = overlay.nodes[overlay.graph.from(2 * e)];
+    if (overlay.kind[e] == EdgeKind::surface && keep[component[node.face]] != 0) {
+      overlay.kind[e] = EdgeKind::line;
+    }
+  }
+}
+
+QuadMesh assemble(const TriMesh& mesh, const PolygonGraph& graph) {
+  QuadMesh result;
+  result.mesh_id = mesh.id;
+  std::vector<Index> vertex_of(graph.node_count(), kNone);
+  const DartGraph& g = graph.graph();
+  std::vector<char> seen(g.dart_count(), 0);
+  std::vector<Index> corners;
+  for (Index d = 0; d < g.dart_count(); ++d) {
+    if (!g.is_alive(d) || seen[d] != 0) continue;
+    const std::vector<Index> cell = graph.cell(d);
+    for (const Index other : cell) seen[other] = 1;
+    if (graph.is_hole(d)) continue;
+    corners.clear();
+    for (const Index other : cell) {
+      const Index n = g.from(other);
+      if (vertex_of[n] == kNone) {
+        vertex_of[n] = result.mesh.vertex_count();
+        result.mesh.positions.push_back(graph.position(n) + mesh.origin);
+        result.provenance.face.push_back(graph.node(n).face);
+        result.provenance.barycentric.push_back(graph.node(n).barycentric);
+        std::array<Index, 2> lines = {kNone, kNone};
+        Index around = other;
+        do {
+          const Index line = graph.line(around);
+          if (line != kNone && line != lines[0] && line != lines[1]) {
+            (lines[0] == kNone ? lines[0] : lines[1]) = line;
+          }
+          around = g.rotate_ccw(around);
+        } while (around != other && lines[1] == kNone);
+        result.provenance.lines.push_back(lines);
+      }
+      corners.push_back(vertex_of[n]);
+    }
+    result.mesh.add_face(corners);
+  }
+  return result;
+}
+
+/// The result against the surface it came from. \throw AlgorithmError naming the difference
+void check_result(const TriMesh& mesh, const PolyMesh& quads, Index max_sides, Report& report) {
+  const Census before = census(mesh);
+  const PolyTopology after = analyse(quads);
+  report.set("mesh.vertices", static_cast<std::int64_t>(quads.vertex_count()));
+  report.set("mesh.faces", static_cast<std::int64_t>(quads.face_count()));
+  report.set("mesh.quads", static_cast<std::int64_t>(after.quads));
+  report.set("mesh.triangles", static_cast<std::int64_t>(after.triangles));
+  report.set("mesh.pentagons", static_cast<std::int64_t>(after.pentagons));
+  report.set("mesh.components", static_cast<std::int64_t>(after.components));
+  report.set("mesh.boundary_loops", static_cast<std::int64_t>(after.boundary_loops));
+  report.set("mesh.euler_characteristic", after.euler);
+  if (!after.is_oriented_manifold()) {
+    throw AlgorithmError("the mesh built from the lines is not an oriented manifold: " +
+                         after.defects() + "; please report this model");
+  }
+  if (after.most_sides > max_sides) {
+    throw AlgorithmError("a face has " + std::to_string(after.most_sides) + " sides where " +
+                         std::to_string(max_sides) + " are allowed; please report this model");
+  }
+  const auto differs = [](const std::string& what, std::int64_t is, std::int64_t should) {
+    return what + " " + std::to_string(is) + " instead of " + std::to_string(should);
+  };
+  std::string difference;
+  if (after.components != before.components) {
+    difference = differs("components", after.components, before.components);
+  } else if (after.boundary_loops != before.boundary_loops) {
+    difference = differs("boundary loops", after.boundary_loops, before.boundary_loops);
+  } else if (after.euler != before.euler_characteristic) {
+    difference = differs("Euler characteristic", after.euler, before.euler_characteristic);
+  }
+  if (!difference.empty()) {
+    throw AlgorithmError("the mesh built from the lines has another topology than the surface: " +
+                         difference + "; please report this model");
+  }
+}
+
+}  // namespace
+
+MeshResult mesh_lines(const TriMesh& mesh, const LineSet& lines, const MeshOptions& options,
+                      Observer& observer) {
+  MeshResult result;
+  Overlay overlay = build_overlay(mesh, lines, observer);
+  observer.report("forming cells", 0.4);
+  const std::vector<Index> component = face_components(mesh);
+  Index cuts = reduce_to_lines(overlay);
+  const std::vector<char> starved = starved_components(mesh, component, overlay);
+  const auto starved_count = std::count(starved.begin(), starved.end(), 1);
+  if (starved_count > 0) {
+    overlay = build_overlay(mesh, lines, observer);
+    keep_triangles(component, starved, overlay);
+    cuts = reduce_to_lines(overlay);
+    result.report.warn(std::to_string(starved_count) +
+                       " component(s) are smaller than the line distance and keep their triangles");
+  }
+  observer.report("simplifying cells", 0.6);
+  PolygonGraph graph(mesh, overlay);
+  const SimplifyCounts simplified = simplify(
+      graph, [&](const SurfaceNode& node) { return local_size(mesh, lines, node); }, kShortestEdge);
+  observer.report("dividing cells", 0.8);
+  const PartitionCounts divided = partition(graph, static_cast<Index>(options.max_sides));
+  result.quads = assemble(mesh, graph);
+
+  Report& report = result.report;
+  report.set("mesh.cut_pieces", static_cast<std::int64_t>(cuts));
+  report.set("mesh.components_kept_as_triangles", static_cast<std::int64_t>(starved_count));
+  report.set("mesh.contracted_edges", static_cast<std::int64_t>(simplified.contracted_edges));
+  report.set("mesh.removed_bigons", static_cast<std::int64_t>(simplified.removed_bigons));
+  report.set("mesh.dissolved_nodes", static_cast<std::int64_t>(simplified.dissolved_nodes));
+  report.set("mesh.divided_edges", static_cast<std::int64_t>(simplified.split_edges));
+  report.set("mesh.diagonals", static_cast<std::int64_t>(divided.diagonals));
+  report.set("mesh.straightened_nodes", static_cast<std::int64_t>(divided.moved_nodes));
+  report.set("mesh.concave_faces_left", static_cast<std::int64_t>(divided.concave_left));
+  check_result(mesh, result.quads.mesh, static_cast<Index>(options.max_sides), report);
+  return result;
+}
+
+}  // namespace strake

@@ -1,0 +1,264 @@
+#include "stages/mesh/partition.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace strake {
+namespace {
+
+constexpr double kRightAngle = M_PI / 2;
+/// Reflex corners up to this angle are moved into line; larger ones divide their face.
+constexpr double kMovableAngle = 200 * M_PI / 180;
+/// How far inside the straight line a moved corner comes to lie, as a share of its edges.
+constexpr double kBulge = 1e-3;
+constexpr int kMoveRounds = 8;
+/// Parts thinner than this, as area over squared perimeter, are as good as degenerate.
+constexpr double kThinnest = 1e-4;
+
+using Polygon = std::vector<Vec3>;
+
+Vec3 newell(const Polygon& p) {
+  Vec3 n = Vec3::Zero();
+  for (std::size_t i = 0; i < p.size(); ++i) n += (p[i] - p[0]).cross(p[(i + 1) % p.size()] - p[0]);
+  return 0.5 * n;
+}
+
+/// Interior angle at corner i, in [0, 2 pi), seen along the unit normal n.
+double interior_angle(const Polygon& p, std::size_t i, const Vec3& n) {
+  const std::size_t size = p.size();
+  const Vec3 a = p[(i + 1) % size] - p[i];
+  const Vec3 b = p[(i + size - 1) % size] - p[i];
+  const double angle = std::atan2(a.cross(b).dot(n), a.dot(b));
+  return angle < 0 ? angle + 2 * M_PI : angle;
+}
+
+/// The measure of concavity that counts: a corner that turns against the polygon's own normal.
+bool is_reflex(const Polygon& p, std::size_t i, const Vec3& n) {
+  const std::size_t size = p.size();
+  const Vec3 a = p[(i + 1) % size] - p[i];
+  const Vec3 b = p[(i + size - 1) % size] - p[i];
+  return a.cross(b).dot(n) < -1e-10 * a.norm() * b.norm();
+}
+
+/// Penalty of a part: squared deviation of its corners from right angles, the worse the thinner;
+/// infinite where it is turned over or has no area.
+double penalty(const Polygon& p, const Vec3& surface_normal) {
+  const Vec3 normal = newell(p);
+  const double area = normal.norm();
+  double around = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) around += (p[(i + 1) % p.size()] - p[i]).norm();
+  if (!(area > kThinnest * around * around)) return std::numeric_limits<double>::infinity();
+  if (normal.dot(surface_normal) <= 0) return std::numeric_limits<double>::infinity();
+  double sum = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const double off = interior_angle(p, i, normal / area) - kRightAngle;
+    sum += off * off;
+    if (is_reflex(p, i, normal / area)) sum += 4;
+  }
+  return sum / static_cast<double>(p.size()) + (p.size() == 4 ? 0.0 : 0.2);
+}
+
+class Partitioner {
+ public:
+  Partitioner(PolygonGraph& graph, Index max_sides) : graph_(graph), max_sides_(max_sides) {}
+
+  PartitionCounts run() {
+    separate_pinched();
+    divide_all([&](const std::vector<Index>& cell) {
+      return static_cast<Index>(cell.size()) > max_sides_ || has_reflex(cell, kMovableAngle);
+    });
+    move_into_line();
+    divide_all([&](const std::vector<Index>& cell) { return has_reflex(cell, 0); });
+    return counts_;
+  }
+
+ private:
+  Polygon polygon(const std::vector<Index>& cell) const {
+    Polygon p;
+    for (const Index d : cell) p.push_back(graph_.position(graph_.graph().from(d)));
+    return p;
+  }
+
+  bool has_reflex(const std::vector<Index>& cell, double above) const {
+    const Polygon p = polygon(cell);
+    const Vec3 n = newell(p).normalized();
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      if (is_reflex(p, i, n) && interior_angle(p, i, n) > above) return true;
+    }
+    return false;
+  }
+
+  /// One dart of every cell.
+  std::vector<Index> cells() const {
+    const DartGraph& g = graph_.graph();
+    std::vector<char> seen(g.dart_count(), 0);
+    std::vector<Index> first;
+    for (Index d = 0; d < g.dart_count(); ++d) {
+      if (!g.is_alive(d) || seen[d] != 0) continue;
+      for (const Index other : graph_.cell(d)) seen[other] = 1;
+      if (!graph_.is_hole(d)) first.push_back(d);
+    }
+    return first;
+  }
+
+  template <class Needs>
+  void divide_all(const Needs& needs) {
+    std::vector<Index> stack = cells();
+    std::reverse(stack.begin(), stack.end());
+    while (!stack.empty()) {
+      const Index d = stack.back();
+      stack.pop_back();
+      const std::vector<Index> cell = graph_.cell(d);
+      if (cell.size() < 4 || !needs(cell)) continue;
+      const Index diagonal = best_diagonal(cell);
+      if (diagonal == kNone) {
+        ++counts_.concave_left;
+        continue;
+      }
+      stack.push_back(diagonal);
+      stack.push_back(DartGraph::opposite(diagonal));
+    }
+  }
+
+  /// Adds the diagonal with the best score; kNone where none is allowed. A reflex corner, where
+  /// there is one, takes part in it.
+  Index best_diagonal(const std::vector<Index>& cell) {
+    const DartGraph& g = graph_.graph();
+    const Polygon p = polygon(cell);
+    const Vec3 n = newell(p).normalized();
+    std::vector<char> reflex(p.size(), 0);
+    bool any_reflex = false;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      reflex[i] = is_reflex(p, i, n) && (interior_angle(p, i, n) > kMovableAngle || p.size() <= 5);
+      any_reflex = any_reflex || reflex[i] != 0;
+    }
+    for (const bool relaxed : {false, true}) {
+      double best = std::numeric_limits<double>::infinity();
+      std::pair<std::size_t, std::size_t> choice{0, 0};
+      for (std::size_t i = 0; i < p.size(); ++i) {
+        for (std::size_t j = i + 2; j < p.size(); ++j) {
+          if (i == 0 && j + 1 == p.size()) continue;
+          if (!relaxed && any_reflex && reflex[i] == 0 && reflex[j] == 0) continue;
+          if (g.from(cell[i]) == g.from(cell[j])) continue;
+          if (graph_.find_edge(cell[i], g.from(cell[j])) != kNone) continue;
+          Polygon one(p.begin() + static_cast<std::ptrdiff_t>(i), p.begin() + static_cast<std::ptrdiff_t>(j) + 1);
+          Polygon two(p.begin() + static_cast<std::ptrdiff_t>(j), p.end());
+          two.insert(two.end(), p.begin(), p.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+          double score = penalty(one, n) + penalty(two, n);
+          if (relaxed && !(score < std::numeric_limits<double>::infinity())) {
+            // Any division is better than none where a face has too many sides.
+            score = 1e6 + (p[i] - p[j]).norm();
+          }
+          if (score < best) {
+            best = score;
+            choice = {i, j};
+          }
+        }
+      }
+      if (best < std::numeric_limits<double>::infinity()) {
+        ++counts_.diagonals;
+        return graph_.connect(cell[choice.first], cell[choice.second]);
+      }
+      if (!relaxed && static_cast<Index>(p.size()) <= max_sides_ && !any_reflex) return kNone;
+    }
+    return kNone;
+  }
+
+  /// Cells that touch themselves in a node: a diagonal separates the two visits, between new nodes
+  /// where the old ones leave no way.
+  void separate_pinched() {
+    const DartGraph& g = graph_.graph();
+    std::vector<Index> stack = cells();
+    std::size_t budget = 20 * stack.size() + 1000;
+    while (!stack.empty() && budget-- > 0) {
+      const Index d = stack.back();
+      stack.pop_back();
+      std::vector<Index> cell = graph_.cell(d);
+      const auto [i, j] = repeated(cell);
+      if (i == j) continue;
+      const auto arc_dart = [&](std::size_t from, std::size_t to) {
+        // A node strictly inside the arc, away from both visits if possible.
+        const std::size_t n = cell.size();
+        const std::size_t steps = (to + n - from) % n;
+        return steps >= 2 ? cell[(from + steps / 2) % n] : kNone;
+      };
+      Index a = arc_dart(i, j);
+      Index b = arc_dart(j, i);
+      if (a == kNone) a = graph_.split(cell[i], 0.5);
+      if (b == kNone) b = graph_.split(cell[j], 0.5);
+      if (g.from(a) == g.from(b)) a = graph_.split(a, 0.5);
+      if (graph_.find_edge(a, g.from(b)) != kNone) a = graph_.split(a, 0.5);
+      const Index diagonal = graph_.connect(a, b);
+      ++counts_.diagonals;
+      stack.push_back(diagonal);
+      stack.push_back(DartGraph::opposite(diagonal));
+    }
+    for (const Index d : cells()) {
+      const auto [i, j] = repeated(graph_.cell(d));
+      counts_.pinched_left += i != j;
+    }
+  }
+
+  /// Two positions of a cell at the same node; equal where there are none.
+  std::pair<std::size_t, std::size_t> repeated(const std::vector<Index>& cell) const {
+    std::vector<std::pair<Index, std::size_t>> nodes;
+    for (std::size_t i = 0; i < cell.size(); ++i) nodes.emplace_back(graph_.graph().from(cell[i]), i);
+    std::sort(nodes.begin(), nodes.end());
+    for (std::size_t i = 1; i < nodes.size(); ++i) {
+      if (nodes[i].first == nodes[i - 1].first) return {nodes[i - 1].second, nodes[i].second};
+    }
+    return {0, 0};
+  }
+
+  /// Moves slightly reflex corners of lines onto the straight line between their neighbours.
+  void move_into_line() {
+    const std::vector<Index> firsts = cells();
+    for (int round = 0; round < kMoveRounds; ++round) {
+      Index moved = 0;
+      for (const Index d : firsts) moved += straighten(graph_.cell(d));
+      counts_.moved_nodes += moved;
+      if (moved == 0) break;
+    }
+  }
+
+  Index straighten(const std::vector<Index>& cell) {
+    if (cell.size() < 4) return 0;
+    Index moved = 0;
+    Polygon p = polygon(cell);
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const Index node = graph_.graph().from(cell[i]);
+      const Vec3 n = newell(p).normalized();
+      if (graph_.rank(node) != NodeRank::line || !is_reflex(p, i, n)) continue;
+      if (interior_angle(p, i, n) > kMovableAngle) continue;
+      const Vec3& before = p[(i + p.size() - 1) % p.size()];
+      const Vec3& after = p[(i + 1) % p.size()];
+      const Vec3 along = after - before;
+      const double length2 = along.squaredNorm();
+      if (!(length2 > 0)) continue;
+      const double t = std::clamp((p[i] - before).dot(along) / length2, 0.1, 0.9);
+      const Vec3 on_line = before + t * along;
+      const Vec3 outwards = along.cross(n).normalized();
+      // Only within the polygon's plane: off it the corner keeps its height above the chord.
+      const Vec3 offset = on_line - p[i];
+      const Vec3 step = outwards * (offset.dot(outwards) + kBulge * along.norm());
+      p[i] += step;
+      graph_.move(node, p[i]);
+      ++moved;
+    }
+    return moved;
+  }
+
+  PolygonGraph& graph_;
+  Index max_sides_;
+  PartitionCounts counts_;
+};
+
+}  // namespace
+
+PartitionCounts partition(PolygonGraph& graph, Index max_sides) {
+  return Partitioner(graph, max_sides).run();
+}
+
+}  // namespace strake

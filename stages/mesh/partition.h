@@ -1,0 +1,21 @@
+#pragma once
+
+#include "stages/mesh/polygon_graph.h"
+
+namespace strake {
+
+struct PartitionCounts {
+  Index diagonals = 0;
+  Index moved_nodes = 0;      ///< T-joints moved onto the line they lie on
+  Index concave_left = 0;     ///< faces that could not be made convex
+  Index pinched_left = 0;     ///< faces with a repeated node that could not be divided
+};
+
+/// Divides cells until each visits a node only once, has at most `max_sides` sides and is convex
+/// ([MK04] section 5.2).
+///
+/// The score of a diagonal favours right angles in both parts. A corner that is only slightly
+/// reflex, as T-joints are, is moved into line instead of dividing its face.
+PartitionCounts partition(PolygonGraph& graph, Index max_sides);
+
+}  // namespace strake

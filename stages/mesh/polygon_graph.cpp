@@ -1,0 +1,266 @@
+#include "stages/mesh/polygon_graph.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/geometry/face_chart.h"
+
+namespace strake {
+namespace {
+
+/// Which overlay nodes become nodes of the polygon graph.
+std::vector<char> kept_nodes(const TriMesh& mesh, const Overlay& overlay) {
+  const DartGraph& graph = overlay.graph;
+  std::vector<Index> degree(overlay.nodes.size(), 0);
+  std::vector<Index> some_dart(overlay.nodes.size(), kNone);
+  std::vector<char> kept(overlay.nodes.size(), 0);
+  for (Index d = 0; d < graph.dart_count(); ++d) {
+    if (!graph.is_alive(d)) continue;
+    const Index n = graph.from(d);
+    ++degree[n];
+    if (some_dart[n] != kNone && overlay.kind[DartGraph::edge_of(some_dart[n])] !=
+                                     overlay.kind[DartGraph::edge_of(d)]) {
+      kept[n] = 1;
+    }
+    some_dart[n] = d;
+  }
+  for (std::size_t n = 0; n < overlay.nodes.size(); ++n) {
+    const Index v = overlay.nodes[n].vertex;
+    if (degree[n] > 0 && (degree[n] != 2 || (v != kNone && mesh.is_corner[v] != 0))) kept[n] = 1;
+  }
+  // Rings without any such node keep an arbitrary one.
+  std::vector<char> seen(overlay.nodes.size(), 0);
+  for (std::size_t n = 0; n < overlay.nodes.size(); ++n) {
+    if (degree[n] != 2 || kept[n] != 0 || seen[n] != 0) continue;
+    bool has_kept = false;
+    for (const Index direction : {some_dart[n], graph.rotate_ccw(some_dart[n])}) {
+      Index d = direction;
+      while (kept[graph.to(d)] == 0 && seen[graph.to(d)] == 0) {
+        seen[graph.to(d)] = 1;
+        d = graph.next(d);
+      }
+      has_kept = has_kept || kept[graph.to(d)] != 0;
+    }
+    if (!has_kept) kept[n] = 1;
+    seen[n] = 1;
+  }
+  return kept;
+}
+
+}  // namespace
+
+PolygonGraph::PolygonGraph(const TriMesh& mesh, const Overlay& overlay) : mesh_(mesh) {
+  const DartGraph& from = overlay.graph;
+  const std::vector<char> kept = kept_nodes(mesh, overlay);
+  std::vector<Index> node_of(overlay.nodes.size(), kNone);
+  std::vector<Index> dart_of(from.dart_count(), kNone);  // first overlay dart -> own dart
+  std::vector<Index> last_of;                            // own dart -> last overlay dart
+  for (Index d = 0; d < from.dart_count(); ++d) {
+    if (from.is_alive(d) && kept[from.from(d)] != 0 && dart_of[d] == kNone) {
+      add_chain(overlay, d, dart_of, kept, node_of);
+    }
+  }
+  for (Index d = 0; d < from.dart_count(); ++d) {
+    if (dart_of[d] == kNone) continue;
+    Index last = d;
+    while (kept[from.to(last)] == 0) last = from.next(last);
+    graph_.link(dart_of[d], dart_of[from.next(last)]);
+  }
+  rank_.assign(nodes_.size(), NodeRank::line);
+  for (Index d = 0; d < graph_.dart_count(); ++d) {
+    const Index n = graph_.from(d);
+    if (is_barrier(d)) rank_[n] = std::max(rank_[n], NodeRank::barrier);
+    if (nodes_[n].vertex != kNone && mesh.is_corner[nodes_[n].vertex] != 0) rank_[n] = NodeRank::corner;
+  }
+}
+
+void PolygonGraph::add_chain(const Overlay& overlay, Index first, std::vector<Index>& dart_of,
+                             const std::vector<char>& kept, std::vector<Index>& node_of) {
+  const DartGraph& from = overlay.graph;
+  const auto own_node = [&](Index n) {
+    if (node_of[n] == kNone) {
+      node_of[n] = static_cast<Index>(nodes_.size());
+      nodes_.push_back(overlay.nodes[n]);
+    }
+    return node_of[n];
+  };
+  std::vector<SurfaceNode> inner;
+  Index last = first;
+  while (kept[from.to(last)] == 0) {
+    inner.push_back(overlay.nodes[from.to(last)]);
+    last = from.next(last);
+  }
+  const Index own_from = own_node(from.from(first));
+  const Index own_to = own_node(from.to(last));
+  const Index dart = graph_.add_edge(own_from, own_to);
+  dart_of[first] = dart;
+  dart_of[DartGraph::opposite(last)] = DartGraph::opposite(dart);
+  const Index e = DartGraph::edge_of(first);
+  const bool boundary = overlay.kind[e] == EdgeKind::boundary;
+  kind_.push_back(overlay.kind[e]);
+  line_.push_back(overlay.line[e]);
+  course_.push_back(std::move(inner));
+  // The far side of a boundary edge is the odd dart of every fragment.
+  outer_.push_back(boundary && first % 2 == 1 ? 1 : 0);
+  outer_.push_back(boundary && first % 2 == 0 ? 1 : 0);
+}
+
+bool PolygonGraph::is_hole(Index dart) const {
+  Index d = dart;
+  do {
+    if (outer_[d] != 0) return true;
+    d = graph_.next(d);
+  } while (d != dart);
+  return false;
+}
+
+Index PolygonGraph::degree(Index dart) const {
+  Index count = 0;
+  Index d = dart;
+  do {
+    ++count;
+    d = graph_.rotate_ccw(d);
+  } while (d != dart);
+  return count;
+}
+
+std::vector<Index> PolygonGraph::cell(Index dart) const {
+  std::vector<Index> darts;
+  Index d = dart;
+  do {
+    darts.push_back(d);
+    d = graph_.next(d);
+  } while (d != dart);
+  return darts;
+}
+
+Index PolygonGraph::find_edge(Index around, Index b) const {
+  Index d = around;
+  do {
+    if (graph_.to(d) == b) return d;
+    d = graph_.rotate_ccw(d);
+  } while (d != around);
+  return kNone;
+}
+
+std::vector<Vec3> PolygonGraph::course(Index dart) const {
+  std::vector<Vec3> points;
+  const auto& inner = course_[DartGraph::edge_of(dart)];
+  points.push_back(position(graph_.from(dart & ~1)));
+  for (const SurfaceNode& n : inner) points.push_back(n.position);
+  points.push_back(position(graph_.to(dart & ~1)));
+  if (dart % 2 == 1) std::reverse(points.begin(), points.end());
+  return points;
+}
+
+double PolygonGraph::length(Index dart) const {
+  const std::vector<Vec3> points = course(dart);
+  double sum = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) sum += (points[i] - points[i - 1]).norm();
+  return sum;
+}
+
+Index PolygonGraph::connect(Index a, Index b) {
+  const Index dart = graph_.connect(a, b);
+  kind_.push_back(EdgeKind::line);
+  line_.push_back(kNone);
+  outer_.resize(outer_.size() + 2, 0);
+  course_.emplace_back();
+  return dart;
+}
+
+void PolygonGraph::dissolve(Index dart) {
+  const Index first = graph_.prev(dart);
+  const Index kept_edge = DartGraph::edge_of(first);
+  const Index other_edge = DartGraph::edge_of(dart);
+  std::vector<SurfaceNode> joined = course_[kept_edge];
+  if (first % 2 == 1) std::reverse(joined.begin(), joined.end());
+  joined.push_back(nodes_[graph_.from(dart)]);
+  std::vector<SurfaceNode> rest = std::move(course_[other_edge]);
+  if (dart % 2 == 1) std::reverse(rest.begin(), rest.end());
+  joined.insert(joined.end(), rest.begin(), rest.end());
+  if (first % 2 == 1) std::reverse(joined.begin(), joined.end());
+  course_[kept_edge] = std::move(joined);
+  course_[other_edge].clear();
+  graph_.dissolve_node(dart);
+}
+
+SurfaceNode PolygonGraph::between(const SurfaceNode& a, const SurfaceNode& b, double share) const {
+  SurfaceNode node;
+  node.position = a.position + share * (b.position - a.position);
+  // Neighbouring points of a course share a face: one of theirs, or a neighbour of it.
+  double best = std::numeric_limits<double>::infinity();
+  const auto consider = [&](Index f) {
+    const FaceChart chart = lay_out(mesh_, f);
+    const Vec3& origin = mesh_.positions[mesh_.faces[f][0]];
+    const Vec3 x = (mesh_.positions[mesh_.faces[f][1]] - origin).normalized();
+    const Vec3 side = mesh_.positions[mesh_.faces[f][2]] - origin;
+    const Vec3 y = (side - x * x.dot(side)).normalized();
+    const Vec3 offset = node.position - origin;
+    Vec3 bary = chart.barycentric(Vec2(x.dot(offset), y.dot(offset))).cwiseMax(0.0);
+    bary /= bary.sum();
+    Vec3 foot = Vec3::Zero();
+    for (int i = 0; i < 3; ++i) foot += bary[i] * mesh_.positions[mesh_.faces[f][i]];
+    const double distance = (foot - node.position).squaredNorm();
+    if (!(distance < best)) return;
+    best = distance;
+    node.face = f;
+    node.barycentric = {bary[0], bary[1], bary[2]};
+  };
+  for (const Index f : {a.face, b.face}) {
+    consider(f);
+    for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+      if (mesh_.twin[h] != kNone) consider(TriMesh::face_of(mesh_.twin[h]));
+    }
+  }
+  if (node.face == kNone) {
+    node.face = a.face;
+    node.barycentric = a.barycentric;
+  }
+  return node;
+}
+
+Index PolygonGraph::split(Index dart, double share) {
+  const Index edge = DartGraph::edge_of(dart);
+  const Index even = 2 * edge;
+  if (dart != even) share = 1 - share;
+  std::vector<SurfaceNode> points = std::move(course_[edge]);
+  points.insert(points.begin(), nodes_[graph_.from(even)]);
+  points.push_back(nodes_[graph_.to(even)]);
+  std::vector<double> arc(points.size(), 0);
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    arc[i] = arc[i - 1] + (points[i].position - points[i - 1].position).norm();
+  }
+  const double wanted = share * arc.back();
+  std::size_t at = 1;
+  while (at + 1 < points.size() && arc[at] < wanted) ++at;
+  const double span = arc[at] - arc[at - 1];
+  const double local = span > 0 ? std::clamp((wanted - arc[at - 1]) / span, 0.0, 1.0) : 0.5;
+  SurfaceNode middle;
+  std::size_t resume = at;  // first inner point of the second half
+  constexpr double kSnap = 0.3;  // to a point that exists, so that corners of the course are kept
+  if (local > 1 - kSnap && at + 1 < points.size()) {
+    middle = points[at];
+    resume = at + 1;
+  } else if (local < kSnap && at > 1) {
+    middle = points[at - 1];
+    --at;
+  } else {
+    middle = between(points[at - 1], points[at], std::clamp(local, 0.1, 0.9));
+  }
+  middle.vertex = kNone;
+  const auto node = static_cast<Index>(nodes_.size());
+  nodes_.push_back(middle);
+  rank_.push_back(is_barrier(even) ? NodeRank::barrier : NodeRank::line);
+  const Index second = graph_.split_edge(even, node);
+  kind_.push_back(kind_[edge]);
+  line_.push_back(line_[edge]);
+  outer_.push_back(outer_[even]);
+  outer_.push_back(outer_[even + 1]);
+  course_.emplace_back(points.begin() + static_cast<std::ptrdiff_t>(resume), points.end() - 1);
+  course_[edge].assign(points.begin() + 1, points.begin() + static_cast<std::ptrdiff_t>(at));
+  return dart == even ? second : DartGraph::opposite(even);
+}
+
+}  // namespace strake

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <vector>
+
+#include "stages/mesh/overlay.h"
+
+namespace strake {
+
+/// How firmly a node stays where it is; a node may be merged into one of equal or higher rank.
+enum class NodeRank : std::uint8_t { line, barrier, corner };
+
+/// The cells between lines as polygons: nodes are crossings and corners, edges are pieces of lines.
+class PolygonGraph {
+ public:
+  /// Contracts an overlay that `reduce_to_lines` has prepared: nodes of degree two become part of
+  /// their edges, except corners and where the kind of line changes.
+  PolygonGraph(const TriMesh& mesh, const Overlay& overlay);
+
+  [[nodiscard]] const DartGraph& graph() const { return graph_; }
+  [[nodiscard]] const SurfaceNode& node(Index n) const { return nodes_[n]; }
+  [[nodiscard]] Index node_count() const { return static_cast<Index>(nodes_.size()); }
+  [[nodiscard]] const Vec3& position(Index n) const { return nodes_[n].position; }
+  [[nodiscard]] NodeRank rank(Index n) const { return rank_[n]; }
+  [[nodiscard]] EdgeKind kind(Index dart) const { return kind_[DartGraph::edge_of(dart)]; }
+  [[nodiscard]] Index line(Index dart) const { return line_[DartGraph::edge_of(dart)]; }
+  [[nodiscard]] bool is_barrier(Index dart) const {
+    return kind(dart) == EdgeKind::feature || kind(dart) == EdgeKind::boundary;
+  }
+  /// Whether the dart lies on the far side of a boundary edge, where there is no surface.
+  [[nodiscard]] bool is_outer(Index dart) const { return outer_[dart] != 0; }
+  [[nodiscard]] bool is_hole(Index dart) const;
+  [[nodiscard]] Index degree(Index dart) const;
+  /// Darts of the cell left of `dart`, starting with it.
+  [[nodiscard]] std::vector<Index> cell(Index dart) const;
+  /// A dart from a to b where `around` leaves a; kNone where there is no such edge.
+  [[nodiscard]] Index find_edge(Index around, Index b) const;
+  /// Length of the edge along the surface.
+  [[nodiscard]] double length(Index dart) const;
+
+  /// Joins the origins of two darts of a cell by a straight edge.
+  Index connect(Index a, Index b);
+  void remove_edge(Index dart) { graph_.remove_edge(dart); }
+  /// Merges from(dart) into to(dart). \pre as for DartGraph::contract
+  void contract(Index dart) { graph_.contract(dart); }
+  /// Joins the two edges at from(dart).
+  void dissolve(Index dart);
+  /// Splits the edge at the point of its course nearest to `share` of its length, in (0, 1).
+  /// \return dart that leaves the new node towards to(dart)
+  Index split(Index dart, double share);
+  /// Moves a node on or near the surface; its place in the mesh stays that of its foot.
+  void move(Index n, const Vec3& position) { nodes_[n].position = position; }
+  /// Points along the edge, both ends included, in the direction of `dart`.
+  [[nodiscard]] std::vector<Vec3> course(Index dart) const;
+
+ private:
+  void add_chain(const Overlay& overlay, Index first, std::vector<Index>& dart_of,
+                 const std::vector<char>& kept, std::vector<Index>& node_of);
+  [[nodiscard]] SurfaceNode between(const SurfaceNode& a, const SurfaceNode& b, double share) const;
+
+  const TriMesh& mesh_;
+  DartGraph graph_;
+  std::vector<SurfaceNode> nodes_;
+  std::vector<NodeRank> rank_;
+  std::vector<EdgeKind> kind_;                    ///< [edges]
+  std::vector<Index> line_;                       ///< [edges]
+  std::vector<char> outer_;                       ///< [darts]
+  std::vector<std::vector<SurfaceNode>> course_;  ///< [edges] inner points, along the even dart
+};
+
+}  // namespace strake

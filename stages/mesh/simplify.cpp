@@ -1,0 +1,227 @@
+#include "stages/mesh/simplify.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace strake {
+namespace {
+
+/// Feature and boundary edges are divided where their course leaves the straight edge by more than
+/// this share of its length (about 14 degrees of turning).
+constexpr double kLargestSagitta = 0.03;
+/// A face may not turn by more than this when one of its nodes moves.
+constexpr double kLeastTurnCosine = 0.3;
+
+Vec3 newell_after_move(const PolygonGraph& graph, const std::vector<Index>& cell, Index moved,
+                       const Vec3& target) {
+  Vec3 normal = Vec3::Zero();
+  const auto at = [&](std::size_t i) -> const Vec3& {
+    const Index n = graph.graph().from(cell[i]);
+    return n == moved ? target : graph.position(n);
+  };
+  for (std::size_t i = 0; i < cell.size(); ++i) normal += at(i).cross(at((i + 1) % cell.size()));
+  return normal;
+}
+
+bool keeps_faces(const PolygonGraph& graph, Index dart) {
+  const DartGraph& g = graph.graph();
+  const Vec3& target = graph.position(g.to(dart));
+  for (Index d = g.rotate_ccw(dart); d != dart; d = g.rotate_ccw(d)) {
+    if (graph.is_hole(d)) continue;
+    const std::vector<Index> cell = graph.cell(d);
+    if (cell.size() == 3 && (g.to(d) == g.to(dart) || g.from(g.prev(d)) == g.to(dart))) continue;
+    const Vec3 before = newell_after_move(graph, cell, kNone, target);
+    const Vec3 after = newell_after_move(graph, cell, g.from(dart), target);
+    if (after.dot(before) < kLeastTurnCosine * after.norm() * before.norm()) return false;
+    if (!(after.norm() > 0.02 * before.norm())) return false;
+  }
+  return true;
+}
+
+/// Removes one edge of a cell with two sides, the less important one.
+bool remove_bigon(PolygonGraph& graph, Index dart) {
+  const DartGraph& g = graph.graph();
+  const Index other = g.next(dart);
+  if (g.next(other) != dart || g.from(dart) == g.to(dart)) return false;
+  if (DartGraph::edge_of(dart) == DartGraph::edge_of(other)) return false;
+  const auto weight = [&](Index d) {
+    return (graph.is_barrier(d) ? 2 : 0) + (graph.kind(d) == EdgeKind::line ? 1 : 0);
+  };
+  const Index weaker = weight(dart) <= weight(other) ? dart : other;
+  if (graph.is_barrier(weaker)) return false;
+  graph.remove_edge(weaker);
+  return true;
+}
+
+/// Dissolves a node of degree two where that leaves polygons with distinct edges.
+bool try_dissolve(PolygonGraph& graph, Index dart) {
+  const DartGraph& g = graph.graph();
+  if (graph.degree(dart) != 2 || graph.rank(g.from(dart)) != NodeRank::line) return false;
+  const Index first = g.prev(dart);
+  const Index a = g.from(first);
+  const Index b = g.to(dart);
+  if (a == b || graph.find_edge(first, b) != kNone) return false;
+  if (graph.cell(dart).size() < 4 || graph.cell(DartGraph::opposite(dart)).size() < 4) return false;
+  graph.dissolve(dart);
+  return true;
+}
+
+bool only_one_edge_to(const PolygonGraph& graph, Index dart) {
+  const DartGraph& g = graph.graph();
+  for (Index d = g.rotate_ccw(dart); d != dart; d = g.rotate_ccw(d)) {
+    if (g.to(d) == g.to(dart) || g.to(d) == g.from(d)) return false;
+  }
+  return true;
+}
+
+/// Removes the bigons beside an edge that is about to vanish or has vanished.
+void clean_up(PolygonGraph& graph, std::initializer_list<Index> darts, SimplifyCounts& counts) {
+  for (const Index d : darts) {
+    if (!graph.graph().is_alive(d)) continue;
+    const Index n = graph.graph().next(d);
+    if (remove_bigon(graph, d)) {
+      ++counts.removed_bigons;
+      for (const Index end : {d, n}) {
+        if (graph.graph().is_alive(end) && try_dissolve(graph, end)) ++counts.dissolved_nodes;
+      }
+    }
+  }
+}
+
+void contract_short_edges(PolygonGraph& graph, const LocalSize& size, double shortest,
+                          SimplifyCounts& counts) {
+  const DartGraph& g = graph.graph();
+  std::vector<std::pair<double, Index>> candidates;
+  for (Index d = 0; d < g.dart_count(); d += 2) {
+    if (!g.is_alive(d)) continue;
+    const double wanted = std::min(size(graph.node(g.from(d))), size(graph.node(g.to(d))));
+    const double ratio = (graph.position(g.from(d)) - graph.position(g.to(d))).norm() / wanted;
+    if (ratio < shortest) candidates.emplace_back(ratio, d);
+  }
+  std::sort(candidates.begin(), candidates.end());
+  for (const auto& [ratio, even] : candidates) {
+    if (!g.is_alive(even)) continue;
+    Index dart = even;
+    const auto firmer = [&](Index d) {  // whether the origin should rather stay
+      const NodeRank a = graph.rank(g.from(d));
+      const NodeRank b = graph.rank(g.to(d));
+      return a != b ? a > b : graph.degree(d) > graph.degree(DartGraph::opposite(d));
+    };
+    if (firmer(dart)) dart = DartGraph::opposite(dart);
+    if (!can_contract(graph, dart)) {
+      dart = DartGraph::opposite(dart);
+      if (!can_contract(graph, dart)) continue;
+    }
+    const Index left = g.next(dart);
+    const Index right = g.next(DartGraph::opposite(dart));
+    graph.contract(dart);
+    ++counts.contracted_edges;
+    clean_up(graph, {left, right}, counts);
+  }
+}
+
+void divide_bent_barriers(PolygonGraph& graph, SimplifyCounts& counts) {
+  const DartGraph& g = graph.graph();
+  for (Index d = 0; d < g.dart_count(); d += 2) {  // new edges come last and are looked at too
+    if (!g.is_alive(d) || !graph.is_barrier(d) || g.from(d) == g.to(d)) continue;
+    const std::vector<Vec3> course = graph.course(d);
+    const Vec3 along = course.back() - course.front();
+    const double length = along.norm();
+    if (course.size() < 3 || !(length > 0)) continue;
+    double worst = kLargestSagitta * length;
+    double arc = 0;
+    double worst_arc = -1;
+    for (std::size_t i = 1; i + 1 < course.size(); ++i) {
+      arc += (course[i] - course[i - 1]).norm();
+      const Vec3 offset = course[i] - course.front();
+      const double distance = (offset - along * (offset.dot(along) / (length * length))).norm();
+      if (distance > worst) {
+        worst = distance;
+        worst_arc = arc;
+      }
+    }
+    if (worst_arc < 0) continue;
+    graph.split(d, worst_arc / graph.length(d));
+    ++counts.split_edges;
+    d -= 2;  // the first half again
+  }
+}
+
+/// Divides loops in three and all but one of several edges between two nodes in two.
+void separate_edges(PolygonGraph& graph, SimplifyCounts& counts) {
+  const DartGraph& g = graph.graph();
+  for (Index d = 0; d < g.dart_count(); ++d) {
+    if (!g.is_alive(d)) continue;
+    if (g.from(d) == g.to(d)) {
+      const Index rest = graph.split(d, 1.0 / 3);
+      graph.split(rest, 0.5);
+      counts.split_edges += 2;
+      continue;
+    }
+    for (Index other = g.rotate_ccw(d); other != d; other = g.rotate_ccw(other)) {
+      if (g.to(other) != g.to(d)) continue;
+      const bool prefer_other = graph.length(other) >= graph.length(d);
+      graph.split(prefer_other ? other : d, 0.5);
+      ++counts.split_edges;
+      break;
+    }
+  }
+}
+
+}  // namespace
+
+bool can_contract(const PolygonGraph& graph, Index dart) {
+  const DartGraph& g = graph.graph();
+  const Index u = g.from(dart);
+  const Index v = g.to(dart);
+  if (u == v || graph.rank(u) > graph.rank(v) || graph.rank(u) == NodeRank::corner) return false;
+  if (graph.rank(u) == NodeRank::barrier && !graph.is_barrier(dart)) return false;
+  if (!only_one_edge_to(graph, dart) || !only_one_edge_to(graph, DartGraph::opposite(dart))) return false;
+  int triangles = 0;
+  for (const Index side : {dart, DartGraph::opposite(dart)}) {
+    const std::vector<Index> cell = graph.cell(side);
+    if (cell.size() < 3) return false;
+    if (cell.size() > 3) continue;
+    ++triangles;
+    if (graph.is_hole(side)) return false;
+    if (graph.is_barrier(cell[1]) && graph.is_barrier(cell[2])) return false;
+  }
+  int common = 0;  // neighbours of both ends
+  for (Index d = g.rotate_ccw(dart); d != dart; d = g.rotate_ccw(d)) {
+    if (graph.find_edge(DartGraph::opposite(dart), g.to(d)) != kNone) ++common;
+  }
+  if (common != triangles) return false;
+  // A cell that has both ends elsewhere on its outline would be pinched.
+  const std::vector<Index> left = graph.cell(dart);
+  const std::vector<Index> right = graph.cell(DartGraph::opposite(dart));
+  for (Index d = g.rotate_ccw(dart); d != dart; d = g.rotate_ccw(d)) {
+    if (std::find(left.begin(), left.end(), d) != left.end() ||
+        std::find(right.begin(), right.end(), d) != right.end()) {
+      continue;
+    }
+    for (const Index other : graph.cell(d)) {
+      if (g.from(other) == v) return false;
+    }
+  }
+  return keeps_faces(graph, dart);
+}
+
+SimplifyCounts simplify(PolygonGraph& graph, const LocalSize& size, double shortest) {
+  SimplifyCounts counts;
+  const DartGraph& g = graph.graph();
+  for (Index d = 0; d < g.dart_count(); ++d) clean_up(graph, {d}, counts);
+  for (int pass = 0; pass < 3; ++pass) {
+    const Index before = counts.contracted_edges;
+    contract_short_edges(graph, size, shortest, counts);
+    if (counts.contracted_edges == before) break;
+  }
+  for (Index d = 0; d < g.dart_count(); ++d) {
+    if (g.is_alive(d) && try_dissolve(graph, d)) ++counts.dissolved_nodes;
+  }
+  separate_edges(graph, counts);
+  divide_bent_barriers(graph, counts);
+  return counts;
+}
+
+}  // namespace strake

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <functional>
+
+#include "stages/mesh/polygon_graph.h"
+
+namespace strake {
+
+/// What `simplify` did.
+struct SimplifyCounts {
+  Index contracted_edges = 0;
+  Index removed_bigons = 0;
+  Index dissolved_nodes = 0;
+  Index split_edges = 0;  ///< loops, double edges and strongly bent features and boundaries
+};
+
+/// Wanted edge length at a node, model units.
+using LocalSize = std::function<double(const SurfaceNode&)>;
+
+/// Brings the cells into the form of a polygon mesh: merges crossings that nearly coincide by edge
+/// contraction under the link condition, removes cells of two sides, and divides edges until no
+/// two nodes are joined twice.
+///
+/// Never merges across feature or boundary lines, and never changes the topology of the surface.
+/// \param shortest edges below this share of the local size are contracted
+SimplifyCounts simplify(PolygonGraph& graph, const LocalSize& size, double shortest);
+
+/// Whether from(dart) may be merged into to(dart): link condition, ranks, and no face turns over.
+bool can_contract(const PolygonGraph& graph, Index dart);
+
+}  // namespace strake

@@ -1,0 +1,164 @@
+#include "stages/trace/barrier_lines.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/geometry/mesh_measures.h"
+
+namespace strake {
+namespace {
+
+/// The barrier half-edge that continues a line after `h`, or kNone at a corner or end.
+Index next_along(const TriMesh& mesh, Index h, bool boundary) {
+  const Index v = mesh.to(h);
+  if (mesh.is_corner[v] != 0) return kNone;
+  Index found = kNone;
+  for (Index out = mesh.vertex_out[v];;) {
+    if (boundary) {
+      if (mesh.is_boundary(out)) return out;
+    } else if (mesh.is_feature[out] != 0 && out != mesh.twin[h]) {
+      if (found != kNone) return kNone;
+      found = out;
+    }
+    out = mesh.rotate_ccw(out);
+    if (out == kNone || out == mesh.vertex_out[v]) break;
+  }
+  return found;
+}
+
+Vec3 edge_vector(const TriMesh& mesh, Index h) {
+  return mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)];
+}
+
+/// Distance wanted between crossing lines along barrier half-edge h, the smaller of its two sides.
+double spacing_along_edge(const TraceDomain& domain, Index h) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Index side : {h, domain.mesh.twin[h]}) {
+    if (side == kNone) continue;
+    const FieldContext context = field_context(domain, TriMesh::face_of(side));
+    const int i = side % 3;
+    const Vec2 edge = context.chart.corner[(i + 1) % 3] - context.chart.corner[i];
+    const Vec2 middle = context.chart.corner[i] + 0.5 * edge;
+    const double length = edge.norm();
+    const Vec2 heading = length > 0 ? Vec2(edge / length) : Vec2(1, 0);
+    least = std::min(least, spacing_at(domain, context, middle, heading).along);
+  }
+  return least;
+}
+
+}  // namespace
+
+std::vector<BarrierLine> barrier_lines(const TriMesh& mesh) {
+  std::vector<BarrierLine> lines;
+  std::vector<char> used(mesh.halfedge_count(), 0);
+  const auto starts_line = [&](Index h) {
+    const Index v = mesh.from(h);
+    if (mesh.is_corner[v] != 0) return true;
+    Index degree = 0;  // a vertex that is no corner has two barrier edges of one kind
+    for (Index out = mesh.vertex_out[v];;) {
+      degree += mesh.is_feature[out];
+      out = mesh.rotate_ccw(out);
+      if (out == kNone || out == mesh.vertex_out[v]) break;
+    }
+    return !mesh.is_boundary(h) && degree != 2;
+  };
+  const auto collect = [&](Index start) {
+    BarrierLine line;
+    line.boundary = mesh.is_boundary(start);
+    Index h = start;
+    while (h != kNone && used[h] == 0) {
+      used[h] = 1;
+      if (mesh.twin[h] != kNone) used[mesh.twin[h]] = 1;
+      line.halfedges.push_back(h);
+      h = next_along(mesh, h, line.boundary);
+    }
+    line.closed = h == start;
+    lines.push_back(std::move(line));
+  };
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    if (used[h] == 0 && mesh.is_barrier(h) && starts_line(h)) collect(h);
+  }
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    if (used[h] == 0 && mesh.is_barrier(h)) collect(h);
+  }
+  return lines;
+}
+
+TracedLine to_traced_line(const BarrierLine& line) {
+  TracedLine result;
+  result.family = line.boundary ? LineFamily::boundary : LineFamily::feature;
+  result.start_reason = line.closed ? LineEnd::closed : LineEnd::node;
+  result.end_reason = result.start_reason;
+  for (const Index h : line.halfedges) {
+    result.points.push_back({h, 0});
+    result.chord_face.push_back(kNone);
+    result.chord_family.push_back(result.family);
+  }
+  return result;
+}
+
+void seed_along(const TraceDomain& domain, const BarrierLine& line, std::vector<Seed>& seeds) {
+  const TriMesh& mesh = domain.mesh;
+  std::vector<double> measure(line.halfedges.size() + 1, 0);  // length in units of the spacing
+  for (std::size_t i = 0; i < line.halfedges.size(); ++i) {
+    const Index h = line.halfedges[i];
+    measure[i + 1] = measure[i] + edge_vector(mesh, h).norm() / spacing_along_edge(domain, h);
+  }
+  const double total = measure.back();
+  const auto parts = static_cast<Index>(std::max(line.closed ? 3.0 : 1.0, std::round(total)));
+  std::size_t at = 0;
+  for (Index k = line.closed ? 0 : 1; k < parts; ++k) {
+    const double wanted = total * k / parts;
+    while (at + 1 < line.halfedges.size() && measure[at + 1] <= wanted) ++at;
+    const double span = measure[at + 1] - measure[at];
+    const double lambda = span > 0 ? (wanted - measure[at]) / span : 0.5;
+    const Index h = line.halfedges[at];
+    Seed seed;
+    seed.face = TriMesh::face_of(h);
+    seed.anchor = {h, std::clamp(lambda, 0.02, 0.98)};
+    seed.direction = domain.face_normals[seed.face].cross(edge_vector(mesh, h)).normalized();
+    seeds.push_back(seed);
+  }
+}
+
+void seed_at_corners(const TraceDomain& domain, std::vector<Seed>& seeds) {
+  const TriMesh& mesh = domain.mesh;
+  std::vector<char> done(mesh.wedge_count(), 0);
+  for (Index start = 0; start < mesh.halfedge_count(); ++start) {
+    const Index w = mesh.wedge_of(start);
+    if (done[w] != 0 || mesh.is_corner[mesh.from(start)] == 0) continue;
+    done[w] = 1;
+    Index first = start;  // clockwise-most corner of the wedge
+    while (!mesh.is_barrier(first)) {
+      first = mesh.rotate_cw(first);
+      if (first == start) break;
+    }
+    double angle = 0;
+    Index corner = first;
+    do {
+      angle += corner_angle(mesh, corner);
+      if (mesh.is_barrier(TriMesh::prev(corner))) break;
+      corner = mesh.rotate_ccw(corner);
+    } while (corner != first);
+    const auto lines = static_cast<int>(std::round(angle / (M_PI / 2))) - 1;
+    for (int k = 1; k <= lines; ++k) {
+      double wanted = angle * k / (lines + 1);
+      corner = first;
+      while (wanted > corner_angle(mesh, corner) && !mesh.is_barrier(TriMesh::prev(corner))) {
+        wanted -= corner_angle(mesh, corner);
+        corner = mesh.rotate_ccw(corner);
+      }
+      const double here = corner_angle(mesh, corner);
+      wanted = std::clamp(wanted, 0.02 * here, 0.98 * here);
+      Seed seed;
+      seed.face = TriMesh::face_of(corner);
+      seed.anchor = {corner, 0};
+      const Vec3 edge = edge_vector(mesh, corner).normalized();
+      seed.direction = edge * std::cos(wanted) +
+                       domain.face_normals[seed.face].cross(edge) * std::sin(wanted);
+      seeds.push_back(seed);
+    }
+  }
+}
+
+}  // namespace strake

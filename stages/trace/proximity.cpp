@@ -1,0 +1,96 @@
+#include "stages/trace/proximity.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace strake {
+namespace {
+
+double squared_distance(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 d = b - a;
+  const double length = d.squaredNorm();
+  const double t = length > 0 ? std::clamp((p - a).dot(d) / length, 0.0, 1.0) : 0.0;
+  return (a + t * d - p).squaredNorm();
+}
+
+}  // namespace
+
+ProximityIndex::ProximityIndex(const TriMesh& mesh)
+    : mesh_(mesh), head_(mesh.face_count(), kNone), stamp_(mesh.face_count(), 0) {}
+
+void ProximityIndex::insert(Index face, LineSegment segment) {
+  segment.next = head_[face];
+  head_[face] = static_cast<Index>(segments_.size());
+  segments_.push_back(segment);
+  segment_face_.push_back(face);
+}
+
+void ProximityIndex::remove_last(std::size_t count) {
+  for (; count > 0; --count) {
+    head_[segment_face_.back()] = segments_.back().next;
+    segments_.pop_back();
+    segment_face_.pop_back();
+  }
+}
+
+void ProximityIndex::grow_cell(Index face, const Vec3& point, double radius) {
+  if (++current_ == 0) {
+    std::fill(stamp_.begin(), stamp_.end(), 0U);
+    current_ = 1;
+  }
+  cell_.assign(1, face);
+  stamp_[face] = current_;
+  const double limit = radius * radius;
+  for (std::size_t at = 0; at < cell_.size(); ++at) {
+    for (Index h = 3 * cell_[at]; h < 3 * cell_[at] + 3; ++h) {
+      if (mesh_.is_barrier(h)) continue;
+      const Index other = TriMesh::face_of(mesh_.twin[h]);
+      if (stamp_[other] == current_) continue;
+      // The edge, not its end points: large faces have none within reach.
+      if (squared_distance(point, mesh_.positions[mesh_.from(h)], mesh_.positions[mesh_.to(h)]) >
+          limit) {
+        continue;
+      }
+      stamp_[other] = current_;
+      cell_.push_back(other);
+    }
+  }
+}
+
+ProximityHit ProximityIndex::query(const ProximityQuery& query) {
+  ++query_count_;
+  grow_cell(query.face, query.point, query.radius);
+  ProximityHit hit;
+  double best = query.distance * query.distance;
+  const auto same_direction = [&](const Vec3& d) { return std::abs(d.dot(query.direction)) > M_SQRT1_2; };
+  for (const Index f : cell_) {
+    for (Index s = head_[f]; s != kNone; s = segments_[s].next) {
+      const LineSegment& segment = segments_[s];
+      const bool own = segment.line == query.own_line;
+      if (own && std::abs(segment.arc - query.own_arc) < query.own_skip) continue;
+      const bool alike =
+          query.by_family ? segment.family == query.family : same_direction(segment.direction);
+      if (!alike) continue;
+      const double d = squared_distance(query.point, segment.a, segment.b);
+      if (d < best) {
+        best = d;
+        hit = {true, own, 0};
+      }
+    }
+    for (Index h = 3 * f; h < 3 * f + 3 && !query.ignore_barriers; ++h) {
+      if (!mesh_.is_barrier(h)) continue;
+      const Vec3& a = mesh_.positions[mesh_.from(h)];
+      const Vec3& b = mesh_.positions[mesh_.to(h)];
+      if (!same_direction((b - a).normalized())) continue;
+      const double d = squared_distance(query.point, a, b);
+      if (d < best) {
+        best = d;
+        hit = {true, false, 0};
+      }
+    }
+  }
+  hit.distance = std::sqrt(best);
+  return hit;
+}
+
+}  // namespace strake

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <vector>
+
+#include "common/core/line_set.h"
+#include "common/core/tri_mesh.h"
+
+namespace strake {
+
+/// A straight piece of a line inside one face, as the proximity queries see it.
+struct LineSegment {
+  Vec3 a;
+  Vec3 b;
+  Vec3 direction;     ///< unit, in the sense the line runs
+  Index line = kNone;
+  double arc = 0;     ///< signed length along the line from its seed, at the middle
+  LineFamily family = LineFamily::minimum;
+  Index next = kNone;  ///< in the list of the same face
+};
+
+/// What a query asks for: is a line of the same direction closer than `distance`?
+struct ProximityQuery {
+  Index face = kNone;
+  Vec3 point;
+  Vec3 direction;       ///< unit
+  double radius = 0;    ///< of the p-cell
+  double distance = 0;  ///< conflicts are closer than this, at most `radius`
+  LineFamily family = LineFamily::minimum;
+  bool by_family = false;     ///< compare families instead of directions ([MK04] section 4.2)
+  Index own_line = kNone;
+  double own_arc = 0;
+  double own_skip = 0;  ///< pieces of the own line nearer than this along the line do not count
+  bool ignore_barriers = false;  ///< for a line that has just left a corner of the feature graph
+};
+
+struct ProximityHit {
+  bool conflict = false;
+  bool own = false;      ///< the conflict is with the line itself
+  double distance = 0;
+};
+
+/// Line samples kept per face, and the p-cell walk over faces ([MK04] section 3.2).
+///
+/// Cells grow over the surface, never through space, and end at barriers (features and boundary),
+/// which count as lines themselves.
+class ProximityIndex {
+ public:
+  explicit ProximityIndex(const TriMesh& mesh);
+
+  void insert(Index face, LineSegment segment);
+  /// Takes back the `count` segments inserted last.
+  void remove_last(std::size_t count);
+  [[nodiscard]] std::size_t segment_count() const { return segments_.size(); }
+
+  ProximityHit query(const ProximityQuery& query);
+  /// Whether `face` was in the cell of the last query.
+  [[nodiscard]] bool in_cell(Index face) const { return stamp_[face] == current_; }
+
+  /// Corners (half-edges) of the faces of the last query's cell that lie within `distance` of its point.
+  template <class Visit>
+  void for_corners_within(const Vec3& point, double distance, Visit&& visit) const {
+    const double limit = distance * distance;
+    for (const Index f : cell_) {
+      for (int i = 0; i < 3; ++i) {
+        if ((mesh_.positions[mesh_.faces[f][i]] - point).squaredNorm() <= limit) visit(3 * f + i);
+      }
+    }
+  }
+
+  [[nodiscard]] std::uint64_t query_count() const { return query_count_; }
+
+ private:
+  void grow_cell(Index face, const Vec3& point, double radius);
+
+  const TriMesh& mesh_;
+  std::vector<LineSegment> segments_;
+  std::vector<Index> segment_face_;
+  std::vector<Index> head_;            ///< [F] first segment of each face
+  std::vector<std::uint32_t> stamp_;   ///< [F] cell the face was last part of
+  std::uint32_t current_ = 0;
+  std::vector<Index> cell_;
+  std::uint64_t query_count_ = 0;
+};
+
+}  // namespace strake

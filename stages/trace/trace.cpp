@@ -1,0 +1,236 @@
+#include "stages/trace/trace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <random>
+
+#include "common/core/error.h"
+#include "common/geometry/mesh_measures.h"
+#include "common/geometry/topology/topology.h"
+#include "stages/trace/barrier_lines.h"
+#include "stages/trace/line_tracer.h"
+#include "stages/trace/spacing.h"
+
+namespace strake {
+namespace {
+
+constexpr double kDefaultTolerance = 0.0005;  ///< share of the diagonal
+constexpr double kSmallestSpacing = 1e-4;     ///< share of the diagonal
+constexpr Index kSeedsPerComponent = 8;
+constexpr int kTriesPerSeed = 32;
+/// Vertices of the finished mesh per vertex that the spacing predicts; measured, and only the
+/// starting point of the correction for a wanted count.
+constexpr double kCountPerPrediction = 1.0;
+
+/// How strongly the directions at a face can be trusted: relative anisotropy times confidence.
+double reliability(const TriMesh& mesh, const PrincipalField& field, Index f) {
+  double sum = 0;
+  for (const Index w : mesh.face_wedges[f]) {
+    sum += std::abs(field.k_max[w] - field.k_min[w]);
+  }
+  return sum * field.face_confidence[f];
+}
+
+/// Sparse random seeds where directions are most reliable ([MK04] section 3), some per component.
+std::vector<Seed> random_seeds(const TraceDomain& domain, std::int64_t random_seed) {
+  const std::vector<Index> component = face_components(domain.mesh);
+  std::vector<std::vector<Index>> faces(*std::max_element(component.begin(), component.end()) + 1);
+  for (Index f = 0; f < domain.mesh.face_count(); ++f) faces[component[f]].push_back(f);
+  std::mt19937_64 random(static_cast<std::uint64_t>(random_seed));
+  std::vector<std::pair<double, Seed>> seeds;
+  for (const auto& pool : faces) {
+    for (Index k = 0; k < kSeedsPerComponent; ++k) {
+      Index best = kNone;
+      double best_value = -1;
+      for (int attempt = 0; attempt < kTriesPerSeed; ++attempt) {
+        const Index f = pool[random() % pool.size()];
+        const double value = reliability(domain.mesh, domain.field, f);
+        if (value > best_value) {
+          best_value = value;
+          best = f;
+        }
+      }
+      Seed seed;
+      seed.face = best;
+      seed.direction = domain.field.cross[domain.mesh.face_wedges[best][0]];
+      seeds.emplace_back(best_value, seed);
+    }
+  }
+  std::stable_sort(seeds.begin(), seeds.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<Seed> result;
+  for (auto& [value, seed] : seeds) result.push_back(seed);
+  return result;
+}
+
+/// Traces seeds first come, first served, and collects the lines.
+class LineCollector {
+ public:
+  LineCollector(const TraceDomain& domain, const TracerSettings& settings, Observer& observer)
+      : domain_(domain), tracer_(domain, settings), observer_(observer) {}
+
+  LineTracer& tracer() { return tracer_; }
+  LineSet& lines() { return lines_; }
+
+  void add(const TracedLine& line) {
+    lines_.points.insert(lines_.points.end(), line.points.begin(), line.points.end());
+    lines_.chord_face.insert(lines_.chord_face.end(), line.chord_face.begin(),
+                             line.chord_face.end());
+    lines_.chord_family.insert(lines_.chord_family.end(), line.chord_family.begin(),
+                               line.chord_family.end());
+    lines_.seed_point.push_back(lines_.offsets.back() + line.seed_point);
+    lines_.offsets.push_back(static_cast<Index>(lines_.points.size()));
+    lines_.family.push_back(line.family);
+    lines_.start_reason.push_back(line.start_reason);
+    lines_.end_reason.push_back(line.end_reason);
+  }
+
+  /// Traces these seeds, and all seeds that their lines spawn.
+  void grow(const std::vector<Seed>& seeds) {
+    std::deque<Seed> queue(seeds.begin(), seeds.end());
+    std::vector<Seed> spawned;
+    while (!queue.empty()) {
+      const Seed seed = queue.front();
+      queue.pop_front();
+      ++tried_;
+      spawned.clear();
+      TracedLine line;
+      if (!tracer_.trace(seed, lines_.line_count(), line, spawned)) continue;
+      add(line);
+      queue.insert(queue.end(), spawned.begin(), spawned.end());
+      if (lines_.line_count() % 64 == 0) observer_.report("tracing lines", covered_share());
+    }
+  }
+
+  /// Seeds wherever a direction of the cross has no line within reach, until none is left.
+  void saturate() {
+    const TriMesh& mesh = domain_.mesh;
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+      for (int i = 0; i < 3; ++i) {
+        const Index w = mesh.face_wedges[f][i];
+        for (int arm = 0; arm < 2; ++arm) {
+          if (tracer_.is_covered(w, arm)) continue;
+          Vec3 barycentric = Vec3::Constant(0.1);
+          barycentric[i] = 0.8;
+          grow({arm_seed(f, barycentric, w, arm)});
+        }
+      }
+      saturate_large_face(f);
+      if (f % 4096 == 0) observer_.report("filling gaps", double(f) / mesh.face_count());
+    }
+  }
+
+  [[nodiscard]] std::size_t tried() const { return tried_; }
+
+ private:
+  Seed arm_seed(Index f, const Vec3& barycentric, Index w, int arm) const {
+    Seed seed;
+    seed.face = f;
+    seed.barycentric = barycentric;
+    const Vec3& c = domain_.field.cross[w];
+    seed.direction = arm == 0 ? c : Vec3(domain_.field.normal[w].cross(c));
+    return seed;
+  }
+
+  /// Vertices do not sample faces that are larger than the distance of lines: try a grid inside.
+  void saturate_large_face(Index f) {
+    const TriMesh& mesh = domain_.mesh;
+    double longest = 0;
+    double spacing = std::numeric_limits<double>::infinity();
+    for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+      longest = std::max(longest, (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).norm());
+      const Index w = mesh.wedge_of(h);
+      spacing = std::min({spacing, domain_.spacing.along[w], domain_.spacing.across[w]});
+    }
+    if (longest < spacing) return;
+    const int steps = static_cast<int>(std::min(200.0, std::ceil(1.5 * longest / spacing)));
+    for (int i = 1; i < steps; ++i) {
+      for (int j = 1; i + j < steps; ++j) {
+        const Vec3 b(double(i) / steps, double(j) / steps, double(steps - i - j) / steps);
+        Index corner = 0;
+        b.maxCoeff(&corner);
+        for (int arm = 0; arm < 2; ++arm) grow({arm_seed(f, b, mesh.face_wedges[f][corner], arm)});
+      }
+    }
+  }
+
+  double covered_share() const {
+    Index covered = 0;
+    const Index step = std::max<Index>(1, domain_.mesh.wedge_count() / 1000);
+    Index looked = 0;
+    for (Index w = 0; w < domain_.mesh.wedge_count(); w += step, looked += 2) {
+      covered += tracer_.is_covered(w, 0) + tracer_.is_covered(w, 1);
+    }
+    return looked > 0 ? double(covered) / looked : 1;
+  }
+
+  const TraceDomain& domain_;
+  LineTracer tracer_;
+  Observer& observer_;
+  LineSet lines_;
+  std::size_t tried_ = 0;
+};
+
+}  // namespace
+
+TraceResult trace_lines(const TriMesh& mesh, const PrincipalField& field,
+                        const TraceOptions& options, Observer& observer) {
+  const int wanted = int(options.tolerance.has_value()) + int(options.vertices.has_value()) +
+                     int(options.faces.has_value());
+  if (wanted > 1) throw UsageError("give only one of --tolerance, --vertices and --faces");
+  SpacingLimits limits;
+  limits.smallest = kSmallestSpacing * mesh.diagonal;
+  limits.largest = options.max_spacing.resolve(mesh.diagonal);
+  double tolerance = kDefaultTolerance * mesh.diagonal;
+  observer.report("choosing line distances", 0);
+  if (options.tolerance) tolerance = options.tolerance->resolve(mesh.diagonal);
+  if (options.vertices || options.faces) {
+    const auto count = static_cast<double>(options.vertices ? *options.vertices : *options.faces);
+    double area = 0;
+    for (const double a : wedge_areas(mesh)) area += a;
+    // The cap must let the mesh get as coarse as is asked for, even where the surface is flat.
+    limits.largest = std::max(limits.largest, 3 * std::sqrt(area / count));
+    tolerance = tolerance_for_count(mesh, field, count / kCountPerPrediction, limits);
+  }
+  Spacing spacing = spacing_for_tolerance(mesh, field, tolerance, limits);
+  for (double& d : spacing.along) d *= options.spacing_scale;
+  for (double& d : spacing.across) d *= options.spacing_scale;
+
+  const TraceDomain domain{mesh, field, spacing, face_normals(mesh)};
+  TracerSettings settings;
+  settings.stop_fraction = options.stop_fraction;
+  LineCollector collector(domain, settings, observer);
+  std::vector<Seed> seeds;
+  for (const BarrierLine& line : barrier_lines(mesh)) {
+    collector.add(to_traced_line(line));
+    seed_along(domain, line, seeds);
+  }
+  const Index barriers = collector.lines().line_count();
+  std::vector<Seed> corner_seeds;
+  seed_at_corners(domain, corner_seeds);
+  seeds.insert(seeds.begin(), corner_seeds.begin(), corner_seeds.end());
+  const std::vector<Seed> anisotropic = random_seeds(domain, options.seed);
+  seeds.insert(seeds.end(), anisotropic.begin(), anisotropic.end());
+  collector.grow(seeds);
+  collector.saturate();
+
+  TraceResult result;
+  result.lines = std::move(collector.lines());
+  result.lines.mesh_id = mesh.id;
+  result.lines.spacing_along_min = std::move(spacing.along);
+  result.lines.spacing_along_max = std::move(spacing.across);
+  Index closed = 0;
+  for (Index l = barriers; l < result.lines.line_count(); ++l) closed += result.lines.is_closed(l);
+  result.report.set("trace.tolerance", tolerance);
+  result.report.set("trace.lines", static_cast<std::int64_t>(result.lines.line_count()));
+  result.report.set("trace.feature_and_boundary_lines", static_cast<std::int64_t>(barriers));
+  result.report.set("trace.closed_lines", static_cast<std::int64_t>(closed));
+  result.report.set("trace.crossings", result.lines.points.size());
+  result.report.set("trace.seeds_tried", collector.tried());
+  result.report.set("trace.proximity_queries",
+                    static_cast<std::int64_t>(collector.tracer().query_count()));
+  return result;
+}
+
+}  // namespace strake
