@@ -34,8 +34,14 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
-/// Keeps HDF5 from printing its error stack: what went wrong goes into the exception instead.
-void silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+/// To be called before any other function of HDF5.
+void prepare_library() {
+  // Its clean-up at exit crashes where closing a file has failed before (a full disk); we close
+  // all.
+  [[maybe_unused]] static const herr_t done = H5dont_atexit();
+  // It shall not print its error stack: what went wrong goes into the exception instead.
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
 
 /// The innermost message of HDF5's error stack, which names the cause.
 std::string innermost_reason() {
@@ -127,7 +133,7 @@ void File::fail(const std::string& object, const std::string& what) const {
 
 Writer::Writer(std::filesystem::path path, std::filesystem::path shown)
     : File(std::move(path), std::move(shown)) {
-  silence();
+  prepare_library();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   // Version 1.10 structures carry checksums of their own; times would make equal files differ.
@@ -211,7 +217,7 @@ void Writer::finish() {
 }
 
 Reader::Reader(const std::filesystem::path& path) : File(path, path) {
-  silence();
+  prepare_library();
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) {

@@ -146,14 +146,19 @@ std::string text_of(const std::optional<T>& value) {
 
 std::string Length::to_string() const {
   if (!relative) return number_text(value);
-  // value * 100 may miss the number that was written by a rounding; the nearest short one is right.
+  // value * 100 may miss the number that was written by a rounding; the shortest that gives the
+  // same value is right.
   const double scaled = value * 100;
-  for (int digits = 1; digits <= 17; ++digits) {
+  for (int digits = 1; digits <= 16; ++digits) {
     char buffer[40];
     const auto result =
         std::to_chars(buffer, buffer + sizeof buffer, scaled, std::chars_format::general, digits);
     const double rounded = parse_number<double>({buffer, result.ptr}).value();
     if (rounded / 100 == value) return number_text(rounded) + "%";
+  }
+  for (const double towards : {-HUGE_VAL, HUGE_VAL}) {
+    const double neighbour = std::nextafter(scaled, towards);
+    if (neighbour / 100 == value) return number_text(neighbour) + "%";
   }
   return number_text(scaled) + "%";
 }

@@ -1,0 +1,169 @@
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include <functional>
+#include <random>
+
+#include "common/artifact/artifact.h"
+#include "common/core/error.h"
+#include "tests/artifacts/artifact_values.h"
+
+namespace strake::artifact_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Damage : public FolderTest {
+ protected:
+  /// The message with which reading is refused; fails the test where it is not.
+  std::string refusal(ArtifactKind kind, const Values& values) {
+    try {
+      reads_equal(file("a.hdf"), kind, values);
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("a.hdf"), std::string::npos) << error.what();
+      return error.what();
+    }
+    ADD_FAILURE() << "the file was accepted";
+    return "";
+  }
+  /// Changes the file with the HDF5 library, as another program could.
+  void edit(const std::function<void(hid_t)>& change) {
+    const hid_t opened = H5Fopen(file("a.hdf").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    ASSERT_GE(opened, 0);
+    change(opened);
+    H5Fclose(opened);
+  }
+  void set_version(std::int64_t version) {
+    edit([&](hid_t opened) {
+      const hid_t attribute = H5Aopen(opened, "format_version", H5P_DEFAULT);
+      EXPECT_GE(H5Awrite(attribute, H5T_NATIVE_INT64, &version), 0);
+      H5Aclose(attribute);
+    });
+  }
+  /// Overwrites one scalar of a dataset.
+  template <class T>
+  void set_scalar(const std::string& name, hsize_t at, hid_t type, T value) {
+    edit([&](hid_t opened) {
+      const hid_t dataset = H5Dopen2(opened, name.c_str(), H5P_DEFAULT);
+      ASSERT_GE(dataset, 0) << name;
+      const hid_t space = H5Dget_space(dataset);
+      const std::array<hsize_t, 2> coordinate = {at, 0};
+      H5Sselect_elements(space, H5S_SELECT_SET, 1, coordinate.data());
+      const hsize_t one = 1;
+      const hid_t memory = H5Screate_simple(1, &one, nullptr);
+      EXPECT_GE(H5Dwrite(dataset, type, memory, space, H5P_DEFAULT, &value), 0);
+      H5Sclose(memory);
+      H5Sclose(space);
+      H5Dclose(dataset);
+    });
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Artifact, Damage, kAllKinds, kKindNames);
+
+TEST_P(Damage, TruncatedFilesAreRefused) {
+  const Values values = make_values();
+  write(file("a.hdf"), GetParam(), values, make_provenance());
+  const std::string bytes = bytes_of(file("a.hdf"));
+  for (const double share : {0.0, 0.001, 0.1, 0.5, 0.9, 0.999}) {
+    put_bytes(file("a.hdf"),
+              bytes.substr(0, static_cast<std::size_t>(share * static_cast<double>(bytes.size()))));
+    refusal(GetParam(), values);
+  }
+}
+
+/// A flipped bit is noticed, unless it lies where the format keeps nothing.
+TEST_P(Damage, FlippedBitsNeverChangeWhatIsRead) {
+  const Values values = make_values();
+  write(file("a.hdf"), GetParam(), values, make_provenance());
+  const std::string bytes = bytes_of(file("a.hdf"));
+  std::mt19937_64 random(11);
+  int refused = 0;
+  constexpr int kFlips = 200;
+  for (int i = 0; i < kFlips; ++i) {
+    std::string damaged = bytes;
+    char& byte = damaged[random() % damaged.size()];
+    byte = static_cast<char>(byte ^ (1 << (random() % 8)));
+    put_bytes(file("a.hdf"), damaged);
+    try {
+      EXPECT_TRUE(reads_equal(file("a.hdf"), GetParam(), values)) << "flip " << i;
+    } catch (const InputError&) {
+      ++refused;
+    }
+  }
+  // Most of a file is data under checksums.
+  EXPECT_GT(refused, kFlips / 2);
+}
+
+TEST_P(Damage, OtherKindsAreRefusedByName) {
+  const Values values = make_values();
+  write(file("a.hdf"), GetParam(), values, make_provenance());
+  for (const ArtifactKind other : {ArtifactKind::mesh, ArtifactKind::tensor, ArtifactKind::field,
+                                   ArtifactKind::lines, ArtifactKind::quads}) {
+    if (other == GetParam()) continue;
+    const std::string message = refusal(other, values);
+    EXPECT_NE(message.find(kind_name(GetParam())), std::string::npos) << message;
+    EXPECT_NE(message.find(kind_name(other)), std::string::npos) << message;
+  }
+}
+
+TEST_P(Damage, NewerVersionsAreRefused) {
+  const Values values = make_values();
+  write(file("a.hdf"), GetParam(), values, make_provenance());
+  set_version(kFormatVersion + 1);
+  EXPECT_NE(refusal(GetParam(), values).find("newer"), std::string::npos);
+  EXPECT_THROW(read_artifact_info(file("a.hdf")), InputError);
+}
+
+TEST_P(Damage, MissingDatasetsAreRefusedByName) {
+  const Values values = make_values();
+  write(file("a.hdf"), GetParam(), values, make_provenance());
+  const std::string bytes = bytes_of(file("a.hdf"));
+  for (const auto& dataset : read_artifact_info(file("a.hdf")).datasets) {
+    put_bytes(file("a.hdf"), bytes);
+    edit([&](hid_t opened) { H5Ldelete(opened, dataset.name.c_str(), H5P_DEFAULT); });
+    EXPECT_NE(refusal(GetParam(), values).find(dataset.name), std::string::npos);
+  }
+}
+
+TEST_F(Damage, IndicesOutOfRangeAndNumbersThatAreNoneAreRefused) {
+  const Values values = make_values();
+  const auto refuses = [&](ArtifactKind kind, const std::string& name, hsize_t at, hid_t type,
+                           auto value) {
+    write(file("a.hdf"), kind, values, make_provenance());
+    set_scalar(name, at, type, value);
+    EXPECT_NE(refusal(kind, values).find(name), std::string::npos) << name;
+  };
+  const Index vertices = values.mesh.vertex_count();
+  const double nan = std::nan("");
+  refuses(ArtifactKind::mesh, "/mesh/faces", 5, H5T_NATIVE_INT32, vertices);
+  refuses(ArtifactKind::mesh, "/mesh/faces", 5, H5T_NATIVE_INT32, -1);
+  refuses(ArtifactKind::mesh, "/mesh/twin", 0, H5T_NATIVE_INT32, 3 * values.mesh.face_count());
+  refuses(ArtifactKind::mesh, "/mesh/twin", 3, H5T_NATIVE_INT32, 3);
+  refuses(ArtifactKind::mesh, "/mesh/wedge_vertex", 0, H5T_NATIVE_INT32, vertices);
+  refuses(ArtifactKind::mesh, "/mesh/positions", 7, H5T_NATIVE_DOUBLE, nan);
+  refuses(ArtifactKind::mesh, "/mesh/is_corner", 2, H5T_NATIVE_INT32, 2);
+  refuses(ArtifactKind::tensor, "/tensor/tensor", 4, H5T_NATIVE_DOUBLE, nan);
+  refuses(ArtifactKind::field, "/field/k_min", 4, H5T_NATIVE_DOUBLE, 1 / 0.0);
+  refuses(ArtifactKind::lines, "/lines/offsets", 1, H5T_NATIVE_INT32, -4);
+  refuses(ArtifactKind::lines, "/lines/lambda", 1, H5T_NATIVE_DOUBLE, 1.0);
+  refuses(ArtifactKind::lines, "/lines/halfedge", 1, H5T_NATIVE_INT32, -1);
+  refuses(ArtifactKind::lines, "/lines/family", 1, H5T_NATIVE_INT32, 4);
+  refuses(ArtifactKind::lines, "/lines/end_reason", 1, H5T_NATIVE_INT32, 7);
+  refuses(ArtifactKind::lines, "/lines/seed_point", 1, H5T_NATIVE_INT32, 1000000);
+  refuses(ArtifactKind::quads, "/quads/corners", 3, H5T_NATIVE_INT32, 40);
+  refuses(ArtifactKind::quads, "/quads/offsets", 1, H5T_NATIVE_INT32, 2);
+}
+
+TEST_F(Damage, FilesThatAreNoArtifactsAreRefused) {
+  const Values values = make_values();
+  put_bytes(file("a.hdf"), "ply\nformat ascii 1.0\n");
+  refusal(ArtifactKind::mesh, values);
+  fs::remove(file("a.hdf"));
+  EXPECT_NE(refusal(ArtifactKind::mesh, values).find("no such file"), std::string::npos);
+  const hid_t foreign = H5Fcreate(file("a.hdf").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  H5Fclose(foreign);
+  refusal(ArtifactKind::mesh, values);
+}
+
+}  // namespace
+}  // namespace strake::artifact_test

@@ -1,0 +1,141 @@
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+
+#include "common/artifact/artifact.h"
+#include "common/artifact/digest.h"
+#include "common/core/error.h"
+#include "tests/artifacts/artifact_values.h"
+
+namespace strake::artifact_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// While it lives, writing beyond this many bytes of a file fails.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(std::size_t bytes) {
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &old_);
+    rlimit limit = old_;
+    limit.rlim_cur = bytes;
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &old_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  rlimit old_{};
+  void (*handler_)(int) = nullptr;
+};
+
+class RoundTrip : public FolderTest {};
+INSTANTIATE_TEST_SUITE_P(Artifact, RoundTrip, kAllKinds, kKindNames);
+
+TEST_P(RoundTrip, IsExact) {
+  const Values values = make_values();
+  write(file("a.hdf"), GetParam(), values, make_provenance());
+  EXPECT_TRUE(reads_equal(file("a.hdf"), GetParam(), values));
+}
+
+TEST_P(RoundTrip, EqualValuesGiveEqualBytes) {
+  write(file("a.hdf"), GetParam(), make_values(), make_provenance());
+  write(file("b.hdf"), GetParam(), make_values(), make_provenance());
+  EXPECT_EQ(bytes_of(file("a.hdf")), bytes_of(file("b.hdf")));
+  EXPECT_EQ(digest_file(file("a.hdf")), digest_file(file("b.hdf")));
+}
+
+TEST_P(RoundTrip, LeavesAnEqualFileUntouched) {
+  const Values values = make_values();
+  write(file("a.hdf"), GetParam(), values, make_provenance());
+  const auto long_ago = fs::last_write_time(file("a.hdf")) - std::chrono::hours(5);
+  fs::last_write_time(file("a.hdf"), long_ago);
+  write(file("a.hdf"), GetParam(), values, make_provenance());
+  EXPECT_EQ(fs::last_write_time(file("a.hdf")), long_ago);
+}
+
+TEST_P(RoundTrip, SaysWhatItIsAndHowItWasMade) {
+  const Values values = make_values();
+  write(file("a.hdf"), GetParam(), values, make_provenance());
+  const ArtifactInfo info = read_artifact_info(file("a.hdf"));
+  EXPECT_EQ(info.kind, GetParam());
+  EXPECT_EQ(info.format_version, kFormatVersion);
+  EXPECT_EQ(info.mesh_id, values.mesh.id);
+  EXPECT_EQ(info.provenance, make_provenance());
+  EXPECT_FALSE(info.datasets.empty());
+  for (const auto& dataset : info.datasets) EXPECT_GT(dataset.rows, 0) << dataset.name;
+}
+
+TEST_P(RoundTrip, LeavesNothingElseBehind) {
+  write(file("a.hdf"), GetParam(), make_values(), make_provenance());
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+}
+
+TEST_P(RoundTrip, OldFileSurvivesAFailedWrite) {
+  const Values values = make_values();
+  write(file("a.hdf"), GetParam(), values, make_provenance());
+  const std::string bytes = bytes_of(file("a.hdf"));
+  Provenance other = make_provenance();
+  other.stage_version += 1;
+  {
+    // A file may grow to a quarter of what it needs: as if the disk were full.
+    const FileSizeLimit limit(bytes.size() / 4);
+    EXPECT_THROW(write(file("a.hdf"), GetParam(), values, other), InputError);
+  }
+  EXPECT_EQ(bytes_of(file("a.hdf")), bytes);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+}
+
+using Artifacts = FolderTest;
+
+TEST_F(Artifacts, EmptyLineSetSurvives) {
+  const Values values = make_values();
+  LineSet lines;
+  lines.mesh_id = values.mesh.id;
+  write_artifact(file("a.hdf"), lines, values.mesh, make_provenance());
+  const LineSet read = read_line_set(file("a.hdf"));
+  EXPECT_EQ(read.line_count(), 0);
+  EXPECT_TRUE(read.points.empty());
+}
+
+TEST_F(Artifacts, LargerThanOneChunkSurvive) {
+  Values values = make_values();
+  auto& positions = values.quads.mesh.positions;
+  for (int i = 0; i < 100000; ++i) positions.push_back(Vec3::Constant(i / 3.0));
+  values.quads.provenance.face.resize(positions.size());
+  values.quads.provenance.barycentric.resize(positions.size());
+  values.quads.provenance.lines.resize(positions.size());
+  write(file("a.hdf"), ArtifactKind::quads, values, make_provenance());
+  EXPECT_TRUE(reads_equal(file("a.hdf"), ArtifactKind::quads, values));
+}
+
+TEST_F(Artifacts, AreRecognisedByContent) {
+  write(file("a.obj"), ArtifactKind::mesh, make_values(), make_provenance());
+  put_bytes(file("b.hdf"), "v 0 0 0\n");
+  EXPECT_TRUE(is_artifact(file("a.obj")));
+  EXPECT_FALSE(is_artifact(file("b.hdf")));
+  EXPECT_FALSE(is_artifact(file("missing")));
+}
+
+TEST_F(Artifacts, DigestIsTheOneOfTheReferenceTool) {
+  // `xxh128sum` of these bytes.
+  put_bytes(file("empty"), "");
+  EXPECT_EQ(digest_file(file("empty")), "99aa06d3014798d86001c324468d497f");
+  EXPECT_THROW(digest_file(file("missing")), InputError);
+}
+
+TEST_F(Artifacts, ProvenanceTextReadsBack) {
+  EXPECT_EQ(Provenance::from_json(make_provenance().to_json()), make_provenance());
+  for (const char* text : {"", "{", "[]", "{\"stage\": 3}"}) {
+    EXPECT_THROW(Provenance::from_json(text), InputError) << text;
+  }
+}
+
+}  // namespace
+}  // namespace strake::artifact_test
