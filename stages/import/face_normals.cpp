@@ -16,7 +16,7 @@ double longest_edge(const TriMesh& mesh, Index f) {
       {edge_length(mesh, 3 * f), edge_length(mesh, 3 * f + 1), edge_length(mesh, 3 * f + 2)});
 }
 
-/// Lowest height at which the normal of a face is trusted: rounding moves a corner by up to a unit
+/// Height from which on the normal of any face is trusted: rounding moves a corner by up to a unit
 /// in the last place of single precision, so the normal by about 1/20 at most.
 double trusted_height(const TriMesh& mesh) {
   constexpr double kSinglePrecision = 1.2e-7;
@@ -50,6 +50,7 @@ void spread(const TriMesh& mesh, double share, std::vector<Vec3>& normals) {
 }  // namespace
 
 std::vector<Vec3> robust_face_normals(const TriMesh& mesh) {
+  constexpr double kSliver = 0.02;  // height over longest edge
   const double lowest = trusted_height(mesh);
   std::vector<Vec3> normals(mesh.faces.size(), Vec3::Zero());
   bool all_trusted = true;
@@ -58,7 +59,8 @@ std::vector<Vec3> robust_face_normals(const TriMesh& mesh) {
     const Vec3 area =
         (mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a]);
     const double norm = area.norm();
-    if (norm > lowest * longest_edge(mesh, f) && norm > 0) {
+    const double longest = longest_edge(mesh, f);
+    if (norm > std::min(lowest, kSliver * longest) * longest && norm > 0) {
       normals[f] = area / norm;
     } else {
       all_trusted = false;

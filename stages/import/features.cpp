@@ -30,15 +30,7 @@ std::vector<float> bend_angles(const TriMesh& mesh) {
   return bend;
 }
 
-void set_feature(TriMesh& mesh, Index h, bool value) {
-  mesh.is_feature[h] = mesh.is_feature[mesh.twin[h]] = value ? 1 : 0;
-}
-
-Vec3 direction(const TriMesh& mesh, Index h) {
-  return (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).stableNormalized();
-}
-
-/// Calls `visit` with every half-edge that leaves a vertex, and with the twins of none.
+/// Calls `visit` with every half-edge that leaves a vertex.
 template <typename Visit>
 void for_each_outgoing(const TriMesh& mesh, Index vertex, const Visit& visit) {
   const Index start = mesh.vertex_out[vertex];
@@ -49,11 +41,47 @@ void for_each_outgoing(const TriMesh& mesh, Index vertex, const Visit& visit) {
   } while (h != kNone && h != start);
 }
 
+/// Median bend of those edges at the four vertices around an edge that are bent by at most `angle`.
+class Roughness {
+ public:
+  Roughness(const TriMesh& mesh, const std::vector<float>& bend, double angle)
+      : mesh_(mesh), bend_(bend), angle_(angle) {}
+
+  double operator()(Index h) {
+    bends_.clear();
+    for (const Index v : {mesh_.from(h), mesh_.to(h), mesh_.from(TriMesh::prev(h)),
+                          mesh_.from(TriMesh::prev(mesh_.twin[h]))}) {
+      for_each_outgoing(mesh_, v, [&](Index e) {
+        if (mesh_.twin[e] != kNone && bend_[e] <= angle_) bends_.push_back(bend_[e]);
+      });
+    }
+    if (bends_.empty()) return 0;
+    const auto middle = bends_.begin() + static_cast<std::ptrdiff_t>(bends_.size() / 2);
+    std::nth_element(bends_.begin(), middle, bends_.end());
+    return *middle;
+  }
+
+ private:
+  const TriMesh& mesh_;
+  const std::vector<float>& bend_;
+  double angle_;
+  std::vector<float> bends_;
+};
+
+void set_feature(TriMesh& mesh, Index h, bool value) {
+  mesh.is_feature[h] = mesh.is_feature[mesh.twin[h]] = value ? 1 : 0;
+}
+
+Vec3 direction(const TriMesh& mesh, Index h) {
+  return (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).stableNormalized();
+}
+
 /// Continues creases that end in the open along weakly bent edges, up to the next crease.
 class Bridges {
  public:
-  Bridges(TriMesh& mesh, const std::vector<float>& bend, double weak)
-      : mesh_(mesh), bend_(bend), weak_(weak), degree_(barrier_degrees(mesh)) {}
+  /// \param excess  [3F] bend beyond the roughness
+  Bridges(TriMesh& mesh, const std::vector<float>& excess, double weak)
+      : mesh_(mesh), excess_(excess), weak_(weak), degree_(barrier_degrees(mesh)) {}
 
   Index run() {
     const std::vector<Index> degree = degree_;
@@ -96,7 +124,7 @@ class Bridges {
     double best_cosine = kStraight;
     Index best = kNone;
     for_each_outgoing(mesh_, mesh_.to(last), [&](Index h) {
-      if (mesh_.is_barrier(h) || bend_[h] <= weak_) return;
+      if (mesh_.is_barrier(h) || excess_[h] <= weak_) return;
       const double cosine = direction(mesh_, h).dot(heading);
       if (cosine > best_cosine) {
         best_cosine = cosine;
@@ -107,7 +135,7 @@ class Bridges {
   }
 
   TriMesh& mesh_;
-  const std::vector<float>& bend_;
+  const std::vector<float>& excess_;
   double weak_;
   std::vector<Index> degree_;
 };
@@ -152,13 +180,20 @@ FeatureCounts find_features(TriMesh& mesh, double angle_deg) {
   mesh.is_feature.assign(mesh.halfedge_count(), 0);
   if (angle_deg < 180) {
     constexpr double kWeak = 0.6;
+    constexpr double kRoughness = 2;
+    const double angle = angle_deg * kDegree;
     const std::vector<float> bend = bend_angles(mesh);
+    Roughness roughness(mesh, bend, angle);
+    std::vector<float> excess(bend.size(), 0);  // bend beyond the roughness, where it matters
     for (Index h = 0; h < mesh.halfedge_count(); ++h) {
-      if (mesh.twin[h] == kNone || bend[h] <= angle_deg * kDegree) continue;
-      mesh.is_feature[h] = 1;
-      counts.strong_edges += h < mesh.twin[h] ? 1 : 0;
+      if (mesh.twin[h] == kNone || h > mesh.twin[h] || bend[h] <= kWeak * angle) continue;
+      const double rough = roughness(h);
+      excess[h] = excess[mesh.twin[h]] = static_cast<float>(bend[h] - rough);
+      if (bend[h] - kRoughness * rough <= angle) continue;
+      set_feature(mesh, h, true);
+      ++counts.strong_edges;
     }
-    counts.bridging_edges = Bridges(mesh, bend, kWeak * angle_deg * kDegree).run();
+    counts.bridging_edges = Bridges(mesh, excess, kWeak * angle).run();
     counts.dropped_edges = drop_short_pieces(mesh);
   }
   counts.edges = counts.strong_edges + counts.bridging_edges - counts.dropped_edges;

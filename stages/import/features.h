@@ -14,12 +14,14 @@ struct FeatureCounts {
 
 /// Flags crease edges (`is_feature`) and the nodes of crease and boundary lines (`is_corner`).
 ///
-/// An edge is a crease where its faces' normals differ by more than `angle_deg`. Creases that fade
-/// out are continued along edges bent by more than 0.6 of that, but only as far as another crease
-/// or the boundary. Connected pieces with a total length below 2 % of the diagonal are dropped as
-/// noise, except for simple closed lines and those that reach the boundary. The normal of a sliver,
-/// which rounding of the coordinates may have turned, is taken from the neighbour across a long
-/// edge.
+/// An edge is a crease where its faces' normals differ by more than `angle_deg` plus twice the
+/// roughness there: the median bend of the edges around it that are bent by less than `angle_deg`.
+/// So noise and detail at the limit of the sampling are no creases, and on smooth faces the angle
+/// decides alone. Creases that fade out are continued along edges bent by more than 0.6 of
+/// `angle_deg` plus the roughness, but only as far as another crease or the boundary. Connected
+/// pieces with a total length below 2 % of the diagonal are dropped as noise, except for simple
+/// closed lines and those that reach the boundary. The normal of a sliver, which rounding of the
+/// coordinates may have turned, is taken from the neighbour across a long edge.
 ///
 /// Corners are the vertices where other than two feature or boundary edges meet, or where such a
 /// line turns by more than 50 degrees, measured over 1 % of the diagonal on each side (at least

@@ -77,6 +77,7 @@ std::vector<std::string> describe(const Repairs& repairs) {
   add(repairs.unusable_faces, "faces dropped that have no usable corners");
   add(repairs.degenerate_faces, "faces dropped that use a vertex twice");
   add(repairs.duplicate_faces, "faces dropped that were there twice");
+  add(repairs.inner_faces, "faces dropped that were walls between touching solids");
   add(repairs.welded_vertices, "vertices merged where borders coincide");
   add(repairs.flipped_faces, "faces turned over to agree with their neighbours");
   add(repairs.non_orientable_cuts, "edges cut because the surface has only one side");
@@ -101,6 +102,7 @@ void report_repairs(const Repairs& repairs, double diagonal, Report& report) {
   report.set("repairs.triangulated_faces", repairs.triangulated_faces);
   report.set("repairs.degenerate_faces", repairs.degenerate_faces);
   report.set("repairs.duplicate_faces", repairs.duplicate_faces);
+  report.set("repairs.inner_faces", repairs.inner_faces);
   report.set("repairs.welded_vertices", repairs.welded_vertices);
   report.set("repairs.weld_tolerance", repairs.weld_tolerance / diagonal);
   report.set("repairs.flipped_faces", repairs.flipped_faces);

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <utility>
 
+#include "stages/import/disjoint_sets.h"
+
 namespace strake::import {
 namespace {
 
@@ -80,7 +82,10 @@ void drop_degenerate_faces(Soup& soup, Repairs& repairs) {
   repairs.degenerate_faces += count;
 }
 
-void drop_duplicate_faces(Soup& soup, Repairs& repairs) {
+namespace {
+
+/// The number of faces with the same corners as each, at the first of them; 0 at the others.
+std::vector<Index> count_copies(const Soup& soup) {
   const auto sorted = [&](Index f) {
     Triangle face = soup.faces[f];
     std::sort(face.begin(), face.end());
@@ -94,21 +99,74 @@ void drop_duplicate_faces(Soup& soup, Repairs& repairs) {
         return std::pair(face[0], face[1]);
       },
       buckets);
-  std::vector<std::uint8_t> remove(soup.faces.size(), 0);
-  std::int64_t count = 0;
+  std::vector<Index> copies(soup.faces.size(), 1);
   for (Index v = 0; v < soup.vertex_count(); ++v) {
     for (Index i = buckets[v]; i < buckets[v + 1]; ++i) {
       const Index third = sorted(entries[i].item)[2];
       for (Index j = i - 1; j >= buckets[v] && entries[j].key == entries[i].key; --j) {
-        if (sorted(entries[j].item)[2] != third) continue;
-        remove[entries[i].item] = 1;
-        ++count;
+        if (copies[entries[j].item] == 0 || sorted(entries[j].item)[2] != third) continue;
+        ++copies[entries[j].item];
+        copies[entries[i].item] = 0;
         break;
       }
     }
   }
-  if (count > 0) remove_faces(soup, remove);
-  repairs.duplicate_faces += count;
+  return copies;
+}
+
+/// Finds patches of doubled faces that are walls between touching solids. \return [F] 1 in walls
+std::vector<std::uint8_t> find_inner_walls(const Soup& soup,
+                                           const std::vector<std::uint8_t>& is_doubled) {
+  const EdgeGroups groups(soup);
+  DisjointSets patches(soup.face_count());
+  for (Index g = 0; g < groups.size(); ++g) {
+    Index first = kNone;
+    for (const Index h : groups[g]) {
+      if (is_doubled[h / 3] == 0) continue;
+      if (first != kNone) patches.unite(first, h / 3);
+      first = h / 3;
+    }
+  }
+  std::vector<Index> patch_size(soup.faces.size(), 0);  // at the patch's first face
+  for (Index f = 0; f < soup.face_count(); ++f) ++patch_size[patches.find(f)];
+  std::vector<std::uint8_t> meets_solids(soup.faces.size(), 0);
+  std::vector<std::uint8_t> is_sheet(soup.faces.size(), 0);
+  for (Index g = 0; g < groups.size(); ++g) {
+    const auto is_wall = [&](Index h) { return is_doubled[h / 3] != 0; };
+    const auto wall = std::find_if(groups[g].begin(), groups[g].end(), is_wall);
+    if (wall == groups[g].end()) continue;
+    const auto walls = std::count_if(groups[g].begin(), groups[g].end(), is_wall);
+    const auto others = static_cast<std::ptrdiff_t>(groups[g].size()) - walls;
+    const Index patch = patches.find(*wall / 3);
+    if (others == 2) meets_solids[patch] = 1;
+    const bool is_rim = others == 0 && walls == 1 && patch_size[patch] > 1;
+    if (is_rim || (others != 0 && others != 2)) is_sheet[patch] = 1;
+  }
+  std::vector<std::uint8_t> result(soup.faces.size(), 0);
+  for (Index f = 0; f < soup.face_count(); ++f) {
+    const Index patch = patches.find(f);
+    result[f] = is_doubled[f] != 0 && meets_solids[patch] != 0 && is_sheet[patch] == 0 ? 1 : 0;
+  }
+  return result;
+}
+
+}  // namespace
+
+void drop_duplicate_faces(Soup& soup, Repairs& repairs) {
+  const std::vector<Index> copies = count_copies(soup);
+  std::vector<std::uint8_t> is_copy(soup.faces.size(), 0);
+  std::vector<std::uint8_t> is_doubled;
+  for (Index f = 0; f < soup.face_count(); ++f) {
+    is_copy[f] = copies[f] == 0 ? 1 : 0;
+    if (copies[f] != 0) is_doubled.push_back(copies[f] % 2 == 0 ? 1 : 0);
+  }
+  const auto dropped = static_cast<std::int64_t>(soup.faces.size() - is_doubled.size());
+  if (dropped == 0) return;
+  repairs.duplicate_faces += dropped;
+  remove_faces(soup, is_copy);
+  const std::vector<std::uint8_t> walls = find_inner_walls(soup, is_doubled);
+  repairs.inner_faces += std::count(walls.begin(), walls.end(), 1);
+  remove_faces(soup, walls);
 }
 
 }  // namespace strake::import

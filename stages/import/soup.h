@@ -33,6 +33,7 @@ struct Repairs {
   std::int64_t welded_vertices = 0;
   std::int64_t degenerate_faces = 0;  ///< a corner twice
   std::int64_t duplicate_faces = 0;
+  std::int64_t inner_faces = 0;  ///< of walls between solids that touch
   std::int64_t non_manifold_edges = 0;
   std::int64_t inserted_vertices = 0;  ///< to tell apart edges with the same two end points
   std::int64_t flipped_faces = 0;
@@ -63,6 +64,10 @@ class EdgeGroups {
 void drop_degenerate_faces(Soup& soup, Repairs& repairs);
 
 /// Removes faces with the same three vertices as an earlier one, in whichever order.
+///
+/// Where solids touch in faces that they share, what is left of these faces would be a wall inside:
+/// patches of doubled faces all of whose border edges have two further faces are removed for good,
+/// as are single faces folded onto each other where just such edges hold them.
 void drop_duplicate_faces(Soup& soup, Repairs& repairs);
 
 }  // namespace strake::import

@@ -2,8 +2,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <optional>
 #include <queue>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace strake::import {
@@ -28,8 +32,67 @@ double shape(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal) {
   return std::copysign(area.norm(), area.dot(normal)) / longest;
 }
 
+/// The edges that are taken: two quads that share three corners must not get the same diagonal, nor
+/// may a diagonal run where there is an edge. Faces with the same corners do not get in each
+/// other's way, so that copies stay copies.
+class TakenEdges {
+ public:
+  explicit TakenEdges(const PolyMesh& mesh) {
+    slots_.resize(std::bit_ceil(2 * mesh.corners.size() + 16));
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+      const auto face = mesh.face(f);
+      for (std::size_t i = 0; i < face.size(); ++i) {
+        take(face[i], face[(i + 1) % face.size()], face);
+      }
+    }
+  }
+
+  void take(Index a, Index b, std::span<const Index> face) {
+    const std::uint64_t edge = key(a, b);
+    Slot& slot = slots_[find(edge)];
+    if (slot.edge == 0) slot = {edge, key(face)};
+  }
+
+  [[nodiscard]] bool is_free(Index a, Index b, std::span<const Index> face) const {
+    const Slot& slot = slots_[find(key(a, b))];
+    return slot.edge == 0 || slot.owner == key(face);
+  }
+
+ private:
+  struct Slot {
+    std::uint64_t edge = 0;
+    std::uint64_t owner = 0;
+  };
+
+  static std::uint64_t mix(std::uint64_t value) {
+    value *= 0x9E3779B97F4A7C15U;
+    return value ^ (value >> 31);
+  }
+  static std::uint64_t key(Index a, Index b) {
+    const auto [low, high] = std::minmax({a, b});
+    return (static_cast<std::uint64_t>(low + 1) << 32) | static_cast<std::uint32_t>(high);
+  }
+  static std::uint64_t key(std::span<const Index> face) {
+    std::uint64_t sum = 0;
+    for (const Index v : face) sum += mix(static_cast<std::uint64_t>(v) + 1);
+    return sum;
+  }
+  [[nodiscard]] std::size_t find(std::uint64_t edge) const {
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t at = mix(edge) & mask;
+    while (slots_[at].edge != 0 && slots_[at].edge != edge) at = (at + 1) & mask;
+    return at;
+  }
+
+  std::vector<Slot> slots_;
+};
+
 /// Whether to cut a quad between its corners 0 and 2 rather than 1 and 3.
-bool cut_from_first_corner(const std::vector<Vec3>& positions, std::span<const Index> quad) {
+bool cut_from_first_corner(const std::vector<Vec3>& positions, std::span<const Index> quad,
+                           const TakenEdges& taken) {
+  const bool first_free = taken.is_free(quad[0], quad[2], quad);
+  const bool second_free = taken.is_free(quad[1], quad[3], quad);
+  if (first_free != second_free) return first_free;
   const Vec3 normal = newell_normal(positions, quad);
   const auto worst = [&](int i) {
     const auto at = [&](int k) -> const Vec3& { return positions[quad[(i + k) % 4]]; };
@@ -216,7 +279,9 @@ class Triangulator {
   void add_polygon(Index f) {
     const auto& p = polygon_;
     if (p.size() == 4) {
-      const bool first = cut_from_first_corner(mesh_.positions, p);
+      if (!taken_) taken_.emplace(mesh_);
+      const bool first = cut_from_first_corner(mesh_.positions, p, *taken_);
+      taken_->take(p[first ? 0 : 1], p[first ? 2 : 3], p);
       add(first ? Triangle{p[0], p[1], p[2]} : Triangle{p[1], p[2], p[3]}, f);
       add(first ? Triangle{p[0], p[2], p[3]} : Triangle{p[1], p[3], p[0]}, f);
     } else if (p.size() == 3 || !(newell_normal(mesh_.positions, p).squaredNorm() > 0)) {
@@ -235,6 +300,7 @@ class Triangulator {
   Repairs& repairs_;
   Soup soup_;
   std::vector<Index> polygon_;
+  std::optional<TakenEdges> taken_;  ///< once there is a quad
 };
 
 }  // namespace

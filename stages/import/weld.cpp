@@ -4,33 +4,15 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "stages/import/disjoint_sets.h"
+
 namespace strake::import {
 namespace {
-
-/// Disjoint sets whose representative is their lowest member.
-class DisjointSets {
- public:
-  explicit DisjointSets(Index count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  Index find(Index i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void unite(Index a, Index b) {
-    const auto [low, high] = std::minmax({find(a), find(b)});
-    parent_[high] = low;
-  }
-
- private:
-  std::vector<Index> parent_;
-};
 
 std::vector<Index> border_halfedges(const Soup& soup, Index& edges) {
   const EdgeGroups groups(soup);
