@@ -26,7 +26,7 @@ Index point_index(const std::string& word, const Polylines& lines) {
 
 Polylines read_polylines(const std::filesystem::path& path) {
   std::ifstream in(path);
-  if (!in) throw InputError(path.string() + ": cannot open the line file; check the name");
+  if (!in) throw InputError("'" + path.string() + "' cannot be opened; check the name");
   Polylines result;
   std::string text;
   std::string group;

@@ -90,7 +90,7 @@ void run(Arguments arguments) {
   for (const std::string& warning : read.warnings()) {
     std::fprintf(stderr, "strake-render: %s\n", warning.c_str());
   }
-  Scene scene(std::move(mesh), arguments.flat);
+  Scene scene(std::move(mesh), arguments.mesh, arguments.flat);
   View view = arguments.view;
   if (view.target) view.target = scene.place(*view.target);
   std::vector<Vec3> used;

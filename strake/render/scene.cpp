@@ -99,8 +99,8 @@ RTCRay make_ray(const Vec3& origin, const Vec3& direction, double reach, unsigne
 
 }  // namespace
 
-Scene::Scene(PolyMesh mesh, bool flat) : mesh_(std::move(mesh)) {
-  normalise();
+Scene::Scene(PolyMesh mesh, const std::string& name, bool flat) : mesh_(std::move(mesh)) {
+  normalise(name);
   device_.reset(rtcNewDevice(nullptr));
   if (!device_) throw Error(ExitCode::internal, "the ray tracer (Embree) does not start");
   scene_.reset(rtcNewScene(device_.get()));
@@ -110,11 +110,11 @@ Scene::Scene(PolyMesh mesh, bool flat) : mesh_(std::move(mesh)) {
 
 Scene::~Scene() = default;
 
-void Scene::normalise() {
+void Scene::normalise(const std::string& name) {
   Eigen::AlignedBox3d box;
   for (const Index v : mesh_.corners) box.extend(mesh_.positions[v]);
   if (box.isEmpty() || !(box.diagonal().norm() > 0) || !box.diagonal().allFinite()) {
-    throw InputError("the mesh has no face of finite, positive size: nothing to draw");
+    throw InputError("'" + name + "' has no face of finite, positive size: nothing to draw");
   }
   centre_ = box.center();
   scale_ = 1 / box.diagonal().norm();

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -29,9 +30,10 @@ struct Hit {
 /// Everything is moved and scaled so that the mesh's bounding box is centred and its diagonal is 1.
 class Scene {
  public:
+  /// \param name  of the mesh, for messages
   /// \param flat  one normal per face instead of normals that are averaged over smooth vertices
   /// \throw InputError where the mesh has no face or no extent
-  Scene(PolyMesh mesh, bool flat);
+  Scene(PolyMesh mesh, const std::string& name, bool flat);
   ~Scene();
 
   /// Adds polylines (model coordinates) as thin tubes; once, before `commit`.
@@ -48,7 +50,7 @@ class Scene {
   [[nodiscard]] Vec3 place(const Vec3& point) const { return scale_ * (point - centre_); }
 
  private:
-  void normalise();
+  void normalise(const std::string& name);
   void build_surface(bool flat);
   void attach(RTCGeometry geometry, unsigned id, unsigned mask);
 
