@@ -11,9 +11,15 @@ namespace {
 
 constexpr double kWindow = 0.01;  ///< of the diagonal, on each side of a vertex
 constexpr double kSharpTurn = 50 * std::numbers::pi / 180;
-constexpr double kBoundaryEdges = 3;     ///< least window along a boundary, mean edges
+constexpr double kSmoothBoundary = 3;  ///< least window along a boundary, mean edges
+constexpr double kRaggedBoundary =
+    10;  ///< the same where single edges turn by 40 degrees on average
 constexpr double kLoopShare = 1.0 / 12;  ///< largest window on a closed line
 constexpr double kSmallestHole = 0.04;   ///< of the diagonal: length of a boundary with corners
+
+double angle_between(const Vec3& a, const Vec3& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
 
 /// A maximal run of feature or boundary edges through vertices where just two of them meet.
 struct Line {
@@ -91,7 +97,7 @@ class TurnMeter {
       length_ += (at(i + 1) - at(i)).norm();
     }
     window_ = kWindow * mesh.diagonal;
-    if (line.is_boundary) window_ = std::max(window_, kBoundaryEdges * length_ / count_);
+    if (line.is_boundary) window_ = std::max(window_, ragged_edges() * length_ / count_);
     if (line.is_closed) window_ = std::min(window_, kLoopShare * length_);
   }
 
@@ -134,11 +140,19 @@ class TurnMeter {
     return at(j) - at(i);
   }
 
-  [[nodiscard]] double turn(Index i) const {
-    const Vec3 before = -chord(i, -1);
-    const Vec3 after = chord(i, 1);
-    return std::atan2(before.cross(after).norm(), before.dot(after));
+  /// Edges to look past along a boundary: the more, the more it turns from edge to edge.
+  [[nodiscard]] double ragged_edges() const {
+    constexpr double kRagged = 40 * std::numbers::pi / 180;
+    const Index inset = line_.is_closed ? 0 : 1;
+    double sum = 0;
+    for (Index i = inset; i < count_ - inset; ++i) {
+      sum += angle_between(at(i) - at(i - 1), at(i + 1) - at(i));
+    }
+    const double mean = sum / std::max(count_ - 2 * inset, 1);
+    return std::clamp(kRaggedBoundary * mean / kRagged, kSmoothBoundary, kRaggedBoundary);
   }
+
+  [[nodiscard]] double turn(Index i) const { return angle_between(-chord(i, -1), chord(i, 1)); }
 
   /// Whether no vertex within a window on one side turns more; of equals the first on the line.
   [[nodiscard]] bool is_sharpest(const std::vector<double>& turns, Index i, Index step) const {

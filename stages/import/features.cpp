@@ -41,7 +41,8 @@ void for_each_outgoing(const TriMesh& mesh, Index vertex, const Visit& visit) {
   } while (h != kNone && h != start);
 }
 
-/// Median bend of those edges at the four vertices around an edge that are bent by at most `angle`.
+/// What the median bend around an edge exceeds that of a smooth, finely meshed surface by. The
+/// edges at its four vertices count that are bent by at most `angle`.
 class Roughness {
  public:
   Roughness(const TriMesh& mesh, const std::vector<float>& bend, double angle)
@@ -58,10 +59,12 @@ class Roughness {
     if (bends_.empty()) return 0;
     const auto middle = bends_.begin() + static_cast<std::ptrdiff_t>(bends_.size() / 2);
     std::nth_element(bends_.begin(), middle, bends_.end());
-    return *middle;
+    return std::max(*middle - kSmooth, 0.0);
   }
 
  private:
+  static constexpr double kSmooth = 5 * kDegree;
+
   const TriMesh& mesh_;
   const std::vector<float>& bend_;
   double angle_;
@@ -140,9 +143,53 @@ class Bridges {
   std::vector<Index> degree_;
 };
 
+constexpr double kShortest = 0.02;  ///< length of a feature, share of the diagonal
+
+double edge_length(const TriMesh& mesh, Index h) {
+  return (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).norm();
+}
+
+/// Cuts off loose ends that are too short, until none is left.
+Index drop_loose_ends(TriMesh& mesh) {
+  std::vector<Index> degree = barrier_degrees(mesh);
+  std::vector<Index> ends;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    if (degree[v] == 1) ends.push_back(v);
+  }
+  Index dropped = 0;
+  std::vector<Index> branch;
+  while (!ends.empty()) {
+    Index v = ends.back();
+    ends.pop_back();
+    branch.clear();
+    double length = 0;
+    do {
+      Index onward = kNone;
+      for_each_outgoing(mesh, v, [&](Index h) {
+        const bool is_way_back = !branch.empty() && h == mesh.twin[branch.back()];
+        if (mesh.is_feature[h] != 0 && !is_way_back) onward = h;
+      });
+      if (onward == kNone) break;
+      branch.push_back(onward);
+      length += edge_length(mesh, onward);
+      v = mesh.to(onward);
+    } while (degree[v] == 2 && length < kShortest * mesh.diagonal);
+    // What ends loose on both sides is a piece of its own; the boundary holds what reaches it.
+    if (branch.empty() || length >= kShortest * mesh.diagonal || degree[v] < 3) continue;
+    if (mesh.is_boundary(mesh.vertex_out[v])) continue;
+    for (const Index h : branch) {
+      set_feature(mesh, h, false);
+      --degree[mesh.from(h)];
+      --degree[mesh.to(h)];
+    }
+    dropped += static_cast<Index>(branch.size());
+    if (degree[v] == 1) ends.push_back(v);
+  }
+  return dropped;
+}
+
 /// Takes the flags off connected pieces too short to be features.
 Index drop_short_pieces(TriMesh& mesh) {
-  constexpr double kShortest = 0.02;
   const std::vector<Index> degree = barrier_degrees(mesh);
   std::vector<std::uint8_t> seen(mesh.halfedge_count(), 0);
   Index dropped = 0;
@@ -155,7 +202,7 @@ Index drop_short_pieces(TriMesh& mesh) {
     bool is_simple_loop = true;
     bool meets_boundary = false;
     for (std::size_t i = 0; i < piece.size(); ++i) {
-      length += (mesh.positions[mesh.to(piece[i])] - mesh.positions[mesh.from(piece[i])]).norm();
+      length += edge_length(mesh, piece[i]);
       for (const Index v : {mesh.from(piece[i]), mesh.to(piece[i])}) {
         is_simple_loop = is_simple_loop && degree[v] == 2;
         meets_boundary = meets_boundary || mesh.is_boundary(mesh.vertex_out[v]);
@@ -180,7 +227,7 @@ FeatureCounts find_features(TriMesh& mesh, double angle_deg) {
   mesh.is_feature.assign(mesh.halfedge_count(), 0);
   if (angle_deg < 180) {
     constexpr double kWeak = 0.6;
-    constexpr double kRoughness = 2;
+    constexpr double kRoughness = 3;
     const double angle = angle_deg * kDegree;
     const std::vector<float> bend = bend_angles(mesh);
     Roughness roughness(mesh, bend, angle);
@@ -194,7 +241,8 @@ FeatureCounts find_features(TriMesh& mesh, double angle_deg) {
       ++counts.strong_edges;
     }
     counts.bridging_edges = Bridges(mesh, excess, kWeak * angle).run();
-    counts.dropped_edges = drop_short_pieces(mesh);
+    counts.dropped_edges = drop_loose_ends(mesh);
+    counts.dropped_edges += drop_short_pieces(mesh);
   }
   counts.edges = counts.strong_edges + counts.bridging_edges - counts.dropped_edges;
   counts.corners = find_corners(mesh);

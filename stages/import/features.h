@@ -7,26 +7,31 @@ namespace strake::import {
 struct FeatureCounts {
   Index strong_edges = 0;    ///< bent by more than the angle
   Index bridging_edges = 0;  ///< bent less, added between strong ones
-  Index dropped_edges = 0;   ///< of pieces too short to be a feature
+  Index dropped_edges = 0;   ///< of loose ends and pieces too short to be features
   Index edges = 0;           ///< in the end
   Index corners = 0;
 };
 
 /// Flags crease edges (`is_feature`) and the nodes of crease and boundary lines (`is_corner`).
 ///
-/// An edge is a crease where its faces' normals differ by more than `angle_deg` plus twice the
-/// roughness there: the median bend of the edges around it that are bent by less than `angle_deg`.
-/// So noise and detail at the limit of the sampling are no creases, and on smooth faces the angle
-/// decides alone. Creases that fade out are continued along edges bent by more than 0.6 of
-/// `angle_deg` plus the roughness, but only as far as another crease or the boundary. Connected
-/// pieces with a total length below 2 % of the diagonal are dropped as noise, except for simple
-/// closed lines and those that reach the boundary. The normal of a sliver, which rounding of the
-/// coordinates may have turned, is taken from the neighbour across a long edge.
+/// An edge is a crease where its faces' normals differ by more than `angle_deg`, and by more than
+/// that by thrice the roughness there: what the median bend of the edges around it (those bent by
+/// at most `angle_deg`) exceeds 5 degrees by. So noise and detail at the limit of the sampling are
+/// no creases, and on smooth faces the angle decides alone. Creases that fade out are continued
+/// along edges bent by more than 0.6 of `angle_deg` (and the roughness), but only as far as another
+/// crease or the boundary.
+///
+/// Loose ends shorter than 2 % of the diagonal are cut off, and connected pieces with a total
+/// length below that are dropped as noise, except for simple closed lines and what reaches the
+/// boundary. The normal of a sliver, which rounding of the coordinates may have turned, is taken
+/// from the neighbour across a long edge.
 ///
 /// Corners are the vertices where other than two feature or boundary edges meet, or where such a
-/// line turns by more than 50 degrees, measured over 1 % of the diagonal on each side (at least
-/// three mean edges along a boundary, at most a twelfth of a closed line) and only where it turns
-/// most. Closed boundaries shorter than 4 % of the diagonal have no corners by turning.
+/// line turns by more than 50 degrees, measured over 1 % of the diagonal on each side (along a
+/// boundary at least three mean edges, ten where it is ragged, at most a twelfth of a closed line)
+/// and only where it turns most. Closed boundaries shorter than 4 % of the diagonal have no corners
+/// by turning.
+///
 /// \param angle_deg  in [0, 180]; 180 flags no creases
 /// \pre build_topology has run
 FeatureCounts find_features(TriMesh& mesh, double angle_deg);
