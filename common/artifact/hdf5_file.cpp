@@ -34,14 +34,8 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
-/// To be called before any other function of HDF5.
-void prepare_library() {
-  // Its clean-up at exit crashes where closing a file has failed before (a full disk); we close
-  // all.
-  [[maybe_unused]] static const herr_t done = H5dont_atexit();
-  // It shall not print its error stack: what went wrong goes into the exception instead.
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-}
+/// Keeps HDF5 from printing its error stack: what went wrong goes into the exception instead.
+void silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
 /// The innermost message of HDF5's error stack, which names the cause.
 std::string innermost_reason() {
@@ -131,15 +125,18 @@ void File::fail(const std::string& object, const std::string& what) const {
   throw InputError(reason.empty() ? message : message + " (HDF5: " + reason + ")");
 }
 
-Writer::Writer(std::filesystem::path path, std::filesystem::path shown)
-    : File(std::move(path), std::move(shown)) {
-  prepare_library();
+Writer::Writer(const std::filesystem::path& path, std::filesystem::path shown)
+    : File(std::move(shown)) {
+  silence();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   // Version 1.10 structures carry checksums of their own; times would make equal files differ.
   H5Pset_libver_bounds(access.id(), H5F_LIBVER_V110, H5F_LIBVER_V110);
   H5Pset_obj_track_times(creation.id(), false);
-  id_ = H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, creation.id(), access.id());
+  constexpr std::size_t kGrowth = 1 << 23;
+  constexpr bool kWriteOnClose = true;
+  H5Pset_fapl_core(access.id(), kGrowth, kWriteOnClose);
+  id_ = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id());
   if (id_ < 0) fail("", "cannot be created");
 }
 
@@ -216,8 +213,8 @@ void Writer::finish() {
   if (H5Fclose(std::exchange(id_, -1)) < 0) fail("", "cannot be written");
 }
 
-Reader::Reader(const std::filesystem::path& path) : File(path, path) {
-  prepare_library();
+Reader::Reader(const std::filesystem::path& path) : File(path) {
+  silence();
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) {
@@ -226,7 +223,7 @@ Reader::Reader(const std::filesystem::path& path) : File(path, path) {
   if (!std::filesystem::is_regular_file(status)) {
     throw InputError(path.string() + ": is not a regular file");
   }
-  id_ = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  id_ = H5Fopen(shown_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (id_ < 0) fail("", "is not an artifact of strake, or is damaged");
 }
 

@@ -74,22 +74,23 @@ class File {
   ~File();
 
  protected:
-  File(std::filesystem::path path, std::filesystem::path shown) noexcept
-      : path_(std::move(path)), shown_(std::move(shown)) {}
+  explicit File(std::filesystem::path shown) noexcept : shown_(std::move(shown)) {}
   /// Throws an InputError that names the file, the object and HDF5's own reason.
   [[noreturn]] void fail(const std::string& object, const std::string& what) const;
 
-  std::filesystem::path path_;
   std::filesystem::path shown_;  ///< as the user knows it
   std::int64_t id_ = -1;         ///< an hid_t
 };
 
-/// Writes a new file: equal calls give equal bytes, each chunk carries a checksum.
+/// Makes a new file: equal calls give equal bytes, each chunk carries a checksum.
+///
+/// The file grows in memory and goes to the disk in one piece: HDF5 1.10 does not survive a disk
+/// that is full while it writes piece by piece.
 class Writer : public File {
  public:
   /// \param path   file to create or overwrite, usually a temporary one
   /// \param shown  its name in messages
-  Writer(std::filesystem::path path, std::filesystem::path shown);
+  Writer(const std::filesystem::path& path, std::filesystem::path shown);
 
   void group(const std::string& name);
   /// Gives the dataset `existing` a second name, without a copy.
@@ -110,7 +111,7 @@ class Writer : public File {
           is_table ? Shape{count, kColumns, true} : Shape{count * kColumns, 1, false});
   }
 
-  /// Closes the file; the data are with the system after that. \throw InputError, e.g. disk full
+  /// Writes and closes the file. \throw InputError, e.g. disk full
   void finish();
 
  private:
