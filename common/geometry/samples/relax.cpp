@@ -11,7 +11,7 @@ namespace {
 constexpr double kStep = 0.7;
 /// Moves may not make the worst triangle around worse, unless it stays better than this.
 constexpr double kGoodEnough = 0.6;
-constexpr double kAcceptable = 0.45;  ///< the same for random displacements
+constexpr double kAcceptable = 0.4;  ///< the same for random displacements
 /// New triangles must face along the old surface to within 60 degrees.
 constexpr double kFacing = 0.5;
 constexpr int kFlipSweeps = 20;
@@ -64,7 +64,10 @@ class Relaxer {
       for (const Index h : fan_) shortest = std::min(shortest, (at(to(h)) - at(v)).norm());
       const Vec3 normal = draft_.vertex_surface[v]->normal(at(v));
       const Vec3 tangential = direction - direction.dot(normal) * normal;
-      try_move(v, at(v) + amount * shortest * tangential, kAcceptable);
+      // Where all of it would spoil a triangle, a part of it may do.
+      for (const double share : {1.0, 0.5, 0.25}) {
+        if (try_move(v, at(v) + share * amount * shortest * tangential, kAcceptable)) break;
+      }
     }
   }
 
@@ -112,7 +115,7 @@ class Relaxer {
     for (h = twin_[first]; h != kNone; h = twin_[next(h)]) fan_.push_back(next(h));
   }
 
-  void try_move(Index v, const Vec3& wish, double good_enough) {
+  bool try_move(Index v, const Vec3& wish, double good_enough) {
     const ChartedSurface& surface = *draft_.vertex_surface[v];
     const Vec3 p = surface.project(wish);
     const Vec3 normal = surface.normal(p);
@@ -122,9 +125,11 @@ class Relaxer {
       before = std::min(before, shape(at(v), b, c));
       after = std::min(after, shape(p, b, c));
       const Vec3 area = (b - p).cross(c - p);
-      if (area.dot(normal) < kFacing * area.norm()) return;
+      if (area.dot(normal) < kFacing * area.norm()) return false;
     }
-    if (after >= std::min(before, good_enough)) draft_.positions[v] = p;
+    if (after < std::min(before, good_enough)) return false;
+    draft_.positions[v] = p;
+    return true;
   }
 
   [[nodiscard]] bool connected(Index a, Index b) {

@@ -53,7 +53,7 @@ struct SampleOptions {
 /// A sample whose faces say which region of the design they belong to.
 struct LabelledSample {
   PolyMesh mesh;
-  std::vector<Index> face_region;  ///< [F] one number per smooth analytic piece (part: 34 of them)
+  std::vector<Index> face_region;  ///< [F] one number per smooth analytic piece (part: 35 of them)
 };
 
 /// Makes a sample: triangles whose vertices lie on the exact surface, oriented outwards, watertight
