@@ -1,5 +1,6 @@
 #include "stages/trace/barrier_lines.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 

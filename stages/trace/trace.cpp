@@ -1,5 +1,6 @@
 #include "stages/trace/trace.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <deque>
