@@ -108,16 +108,16 @@ std::string describe_loss(const ReadReport& report) {
 std::vector<std::string> ReadReport::warnings() const {
   std::vector<std::string> result;
   const auto add = [&](std::int64_t count, const char* text) {
-    if (count != 0) result.push_back(fmt::format("{} {}", count, text));
+    if (count != 0) result.push_back(fmt::format("{}: {}", text, count));
   };
   if (extension_differs) {
     result.push_back(fmt::format("the file is {} by content, whatever its name says", format));
   }
-  add(missing_vertices, "announced vertices are missing: the file is cut off or damaged");
-  add(missing_faces, "announced faces are missing: the file is cut off or damaged");
+  add(missing_vertices, "vertices missing that the file announces (it is cut off or damaged)");
+  add(missing_faces, "faces missing that the file announces (it is cut off or damaged)");
   add(bad_index_faces, "faces skipped that name vertices which are not there");
   add(few_corner_faces, "faces skipped that have fewer than 3 corners");
-  add(non_finite_vertices, "vertices have coordinates that are not finite numbers");
+  add(non_finite_vertices, "vertices without finite coordinates");
   add(non_finite_faces, "faces skipped that use vertices without finite coordinates");
   add(skipped_lines, "lines skipped that make no sense");
   return result;

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cctype>
 #include <string_view>
 
 #include "common/artifact/meshfile/formats.h"
@@ -43,6 +45,13 @@ bool is_other_keyword(std::string_view word) {
   return false;
 }
 
+/// Whether a line that begins so may be a statement that some program added to the format.
+bool is_statement(std::string_view word) {
+  return std::isalpha(static_cast<unsigned char>(word.front())) != 0 &&
+         std::all_of(word.begin(), word.end(),
+                     [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
+}
+
 }  // namespace
 
 bool looks_like_obj(std::string_view bytes) {
@@ -71,7 +80,7 @@ PolyMesh read_obj(std::string_view bytes, ReadReport& report) {
       mesh.positions.push_back(read_vertex(scanner));
     } else if (word == "f") {
       read_face(scanner, mesh);
-    } else if (!is_other_keyword(word)) {
+    } else if (!is_statement(word)) {
       ++report.skipped_lines;
     }
   }

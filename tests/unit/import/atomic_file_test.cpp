@@ -1,0 +1,107 @@
+#include "common/artifact/atomic_file.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "common/core/error.h"
+
+namespace strake {
+namespace {
+
+namespace fs = std::filesystem;
+
+class AtomicFileTest : public testing::Test {
+ protected:
+  AtomicFileTest() {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(testing::TempDir()) / (std::string("strake_atomic_") + info->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~AtomicFileTest() override { fs::remove_all(folder_); }
+
+  static void write(const fs::path& path, const std::string& text) {
+    std::ofstream(path, std::ios::binary) << text;
+  }
+  static std::string read(const fs::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+  [[nodiscard]] std::ptrdiff_t entries() const {
+    return std::distance(fs::directory_iterator(folder_), fs::directory_iterator());
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(AtomicFileTest, AppearsOnlyWithTheCommit) {
+  const fs::path target = folder_ / "out.bin";
+  AtomicFile file(target);
+  write(file.temporary(), "new");
+  EXPECT_FALSE(fs::exists(target));
+  EXPECT_TRUE(file.commit());
+  EXPECT_EQ(read(target), "new");
+  EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(AtomicFileTest, LeavesTheOldFileWithoutCommit) {
+  const fs::path target = folder_ / "out.bin";
+  write(target, "old");
+  {
+    AtomicFile file(target);
+    write(file.temporary(), "half");
+  }
+  EXPECT_EQ(read(target), "old");
+  EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(AtomicFileTest, KeepsTheTimeStampOfEqualBytes) {
+  const fs::path target = folder_ / "out.bin";
+  write(target, "same");
+  const auto before = fs::last_write_time(target) - std::chrono::hours(1);
+  fs::last_write_time(target, before);
+  AtomicFile file(target);
+  write(file.temporary(), "same");
+  EXPECT_FALSE(file.commit());
+  EXPECT_EQ(fs::last_write_time(target), before);
+  EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(AtomicFileTest, WritesThroughALink) {
+  write(folder_ / "real.bin", "old");
+  fs::create_symlink("real.bin", folder_ / "link.bin");
+  AtomicFile file(folder_ / "link.bin");
+  write(file.temporary(), "new");
+  file.commit();
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link.bin"));
+  EXPECT_EQ(read(folder_ / "real.bin"), "new");
+}
+
+TEST_F(AtomicFileTest, RefusesFoldersAndMissingFolders) {
+  EXPECT_THROW(AtomicFile{folder_}, InputError);
+  try {
+    AtomicFile file(folder_ / "missing" / "out.bin");
+    FAIL() << "a missing folder must be refused";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("missing"), std::string::npos) << error.what();
+  }
+}
+
+TEST_F(AtomicFileTest, TwoWritersDoNotDisturbEachOther) {
+  const fs::path target = folder_ / "out.bin";
+  AtomicFile first(target);
+  AtomicFile second(target);
+  ASSERT_NE(first.temporary(), second.temporary());
+  write(first.temporary(), "first");
+  write(second.temporary(), "second");
+  first.commit();
+  second.commit();
+  EXPECT_EQ(read(target), "second");
+}
+
+}  // namespace
+}  // namespace strake

@@ -1,0 +1,130 @@
+#include "stages/import/triangulate.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <map>
+#include <random>
+#include <set>
+
+#include "tests/unit/import/shapes.h"
+
+namespace strake::import {
+namespace {
+
+/// The triangles of a single polygon given by its corners.
+Soup cut(const std::vector<Vec3>& corners) {
+  PolyMesh mesh;
+  mesh.positions = corners;
+  std::vector<Index> face(corners.size());
+  for (Index i = 0; i < mesh.vertex_count(); ++i) face[i] = i;
+  mesh.add_face(face);
+  Repairs repairs;
+  return triangulate(mesh, repairs);
+}
+
+/// Checks that the triangles form a disk with the outline 0, 1, ..., n - 1.
+void expect_disk(const Soup& soup, Index n) {
+  ASSERT_EQ(soup.face_count(), n - 2);
+  std::map<std::pair<Index, Index>, int> directed;
+  for (Index h = 0; h < soup.halfedge_count(); ++h) ++directed[{soup.from(h), soup.to(h)}];
+  for (const auto& [edge, times] : directed) {
+    EXPECT_EQ(times, 1);
+    const bool is_outline = edge.second == (edge.first + 1) % n;
+    EXPECT_EQ(directed.count({edge.second, edge.first}), is_outline ? 0U : 1U);
+  }
+}
+
+std::vector<double> signed_areas(const Soup& soup) {
+  std::vector<double> areas;
+  for (const auto& [a, b, c] : soup.faces) {
+    const Vec3& p = soup.positions[a];
+    areas.push_back(0.5 * (soup.positions[b] - p).cross(soup.positions[c] - p).z());
+  }
+  return areas;
+}
+
+TEST(Triangulate, ConcaveQuadIsCutAtItsReflexCorner) {
+  // The reflex corner is number 3; only the diagonal 1-3 lies inside.
+  const Soup soup = cut({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0.2, 0.2, 0)});
+  expect_disk(soup, 4);
+  for (const double area : signed_areas(soup)) EXPECT_GT(area, 0);
+}
+
+TEST(Triangulate, QuadTakesTheLargerLeastAngle) {
+  const Soup soup = cut({Vec3(0, 0, 0), Vec3(2, -1, 0), Vec3(4, 0, 0), Vec3(2, 1, 0)});
+  for (const Triangle& face : soup.faces) {
+    EXPECT_TRUE(std::count(face.begin(), face.end(), 1) == 1 &&
+                std::count(face.begin(), face.end(), 3) == 1);
+  }
+}
+
+TEST(Triangulate, StarKeepsItsAreaWithoutFoldedTriangles) {
+  for (const Index n : {10, 101, 1000}) {
+    std::vector<Vec3> star;
+    double twice_area = 0;
+    for (Index i = 0; i < n; ++i) {
+      const double angle = 2 * std::numbers::pi * i / n;
+      star.push_back((i % 2 == 0 ? 1.0 : 0.3) * Vec3(std::cos(angle), std::sin(angle), 0));
+    }
+    for (Index i = 0; i < n; ++i) twice_area += star[i].cross(star[(i + 1) % n]).z();
+    const Soup soup = cut(star);
+    expect_disk(soup, n);
+    double sum = 0;
+    for (const double area : signed_areas(soup)) {
+      EXPECT_GT(area, 0);
+      sum += area;
+    }
+    // n sums of numbers below 1, each rounded to 1e-16.
+    EXPECT_NEAR(sum, 0.5 * twice_area, 1e-15 * n);
+  }
+}
+
+TEST(Triangulate, AnyOutlineGivesADisk) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Index n = 5 + trial % 40;
+    std::vector<Vec3> corners;
+    for (Index i = 0; i < n; ++i) {
+      corners.emplace_back(uniform(random), uniform(random), trial % 2 == 0 ? 0 : uniform(random));
+    }
+    expect_disk(cut(corners), n);
+  }
+}
+
+TEST(Triangulate, CollinearAndCoincidentCorners) {
+  expect_disk(cut({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(2, 0, 0), Vec3(2, 1, 0), Vec3(1, 1, 0),
+                   Vec3(0, 1, 0), Vec3(0, 0.5, 0)}),
+              7);
+  expect_disk(cut(std::vector<Vec3>(6, Vec3(1, 2, 3))), 6);
+  expect_disk(cut({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(2, 0, 0), Vec3(3, 0, 0), Vec3(4, 0, 0)}), 5);
+}
+
+TEST(Triangulate, RepeatedCornersOfPolygonsAreLeftOut) {
+  Repairs repairs;
+  const Soup soup = triangulate(
+      shapes::polygons({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, {{0, 0, 1, 2}, {0, 1, 1, 0}}),
+      repairs);
+  EXPECT_EQ(soup.face_count(), 1);
+  EXPECT_EQ(repairs.degenerate_faces, 1);
+}
+
+TEST(Triangulate, QuadsThatShareThreeCornersGetDifferentDiagonals) {
+  // Two quads back to back around a vertex of two edges: with the diagonal 1-3 in both, the
+  // triangle (1, 2, 3) would be there twice.
+  Repairs repairs;
+  const Soup soup = triangulate(shapes::polygons({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0.1),
+                                                  Vec3(0, 1, 0), Vec3(2, 2, 0)},
+                                                 {{0, 1, 2, 3}, {4, 3, 2, 1}}),
+                                repairs);
+  std::set<Triangle> distinct;
+  for (Triangle face : soup.faces) {
+    std::sort(face.begin(), face.end());
+    distinct.insert(face);
+  }
+  EXPECT_EQ(distinct.size(), 4U);
+}
+
+}  // namespace
+}  // namespace strake::import
