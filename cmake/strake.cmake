@@ -7,6 +7,13 @@ target_compile_options(strake_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow 
                        # GCC 12 sees overlaps in string concatenation that are not there (PR 105651).
                        $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 
+set(STRAKE_SANITIZE "" CACHE STRING "Sanitizers to build with, as for -fsanitize=")
+if(STRAKE_SANITIZE)
+  add_compile_options(-fsanitize=${STRAKE_SANITIZE} -fno-sanitize-recover=all
+                      -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${STRAKE_SANITIZE})
+endif()
+
 # strake_library(NAME SOURCES... [DEPENDS targets...]): a static library strake_NAME.
 function(strake_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "common/artifact/digest.h"
+#include "common/artifact/text_file.h"
 #include "common/core/error.h"
 
 namespace strake {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/artifact/digest.h"
+#include "common/artifact/text_file.h"
 #include "common/core/error.h"
 #include "stages/evaluate/stage.h"
 #include "stages/import/stage.h"

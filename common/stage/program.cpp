@@ -14,6 +14,7 @@
 #include <new>
 
 #include "common/artifact/digest.h"
+#include "common/artifact/text_file.h"
 #include "common/core/error.h"
 
 namespace strake {

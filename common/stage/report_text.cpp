@@ -3,11 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
-
-#include "common/artifact/atomic_file.h"
-#include "common/core/error.h"
 
 namespace strake {
 namespace {
@@ -74,15 +70,6 @@ std::string report_text(const Report& report) {
     text += fmt::format("{:{}}  {}\n", key + ":", width + 1, value_text(value));
   }
   return text;
-}
-
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  AtomicFile file(path);
-  std::ofstream stream(file.temporary(), std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) throw InputError(path.string() + ": cannot be written; is the disk full?");
-  file.commit();
 }
 
 }  // namespace strake

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,8 +27,5 @@ std::string report_text(const Report& report);
 
 /// A value as people read it: shortest text, six digits of a number with a fraction.
 std::string value_text(const Report::Value& value);
-
-/// Writes text to a file atomically. \throw InputError naming the file
-void write_text(const std::filesystem::path& path, const std::string& text);
 
 }  // namespace strake

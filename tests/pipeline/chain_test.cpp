@@ -1,0 +1,80 @@
+#include "common/artifact/artifact.h"
+#include "tests/pipeline/run_program.h"
+
+namespace strake::pipeline_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string> kArtifacts = {"mesh.hdf", "tensor.hdf", "field.hdf", "lines.hdf",
+                                             "quads.hdf"};
+
+class Chain : public ProgramTest {
+ protected:
+  Chain() { must("strake sample part -o part.ply --faces 9000"); }
+};
+
+TEST_F(Chain, GivesTheSameBytesForAnyThreadCount) {
+  run_chain("part.ply", "one-", "--threads 1");
+  run_chain("part.ply", "two-", "--threads 2");
+  for (const std::string& name : kArtifacts) {
+    EXPECT_EQ(bytes("one-" + name), bytes("two-" + name)) << name;
+  }
+}
+
+TEST_F(Chain, FrontEndKeepsWhatThePrograms) {
+  run_chain("part.ply", "");
+  must("strake-evaluate mesh.hdf quads.hdf --field field.hdf -o evaluate.json -q");
+  must("strake remesh part.ply -o part.obj --keep kept -q");
+  for (const std::string& name : kArtifacts) EXPECT_EQ(bytes(name), bytes("kept/" + name)) << name;
+  EXPECT_EQ(bytes("evaluate.json"), bytes("kept/evaluate.json"));
+  must("strake-mesh mesh.hdf lines.hdf -o again.obj -q");
+  EXPECT_EQ(bytes("part.obj"), bytes("again.obj"));
+}
+
+TEST_F(Chain, AnotherSeedNeedsOnlyTraceAndMeshAgain) {
+  run_chain("part.ply", "");
+  const std::string field = bytes("field.hdf");
+  must("strake-trace mesh.hdf field.hdf -o lines7.hdf --seed 7 -q");
+  must("strake-mesh mesh.hdf lines7.hdf -o quads7.hdf -q");
+  EXPECT_EQ(bytes("field.hdf"), field);
+  must("strake remesh part.ply -o whole.obj --seed 7 --keep kept -q");
+  EXPECT_EQ(bytes("field.hdf"), bytes("kept/field.hdf"));
+  EXPECT_EQ(bytes("lines7.hdf"), bytes("kept/lines.hdf"));
+  EXPECT_EQ(bytes("quads7.hdf"), bytes("kept/quads.hdf"));
+}
+
+TEST_F(Chain, RunningAgainLeavesTheFilesAlone) {
+  run_chain("part.ply", "");
+  std::vector<fs::file_time_type> times;
+  for (const std::string& name : kArtifacts) {
+    fs::last_write_time(file(name), fs::last_write_time(file(name)) - std::chrono::hours(1));
+    times.push_back(fs::last_write_time(file(name)));
+  }
+  run_chain("part.ply", "");
+  for (std::size_t i = 0; i < kArtifacts.size(); ++i) {
+    EXPECT_EQ(fs::last_write_time(file(kArtifacts[i])), times[i]) << kArtifacts[i];
+  }
+}
+
+TEST_F(Chain, ArtifactsSayHowTheyWereMade) {
+  must("strake-import part.ply -o mesh.hdf -q");
+  must("strake-tensor mesh.hdf -o tensor.hdf -q --radius 2% --threads 1");
+  const Provenance provenance = read_artifact_info(file("tensor.hdf")).provenance;
+  EXPECT_EQ(provenance.stage, "tensor");
+  EXPECT_EQ(provenance.options, (std::vector<Provenance::OptionRecord>{{"radius", "2%", false}}));
+  ASSERT_EQ(provenance.inputs.size(), 1u);
+  EXPECT_EQ(provenance.inputs[0].role, "mesh");
+  EXPECT_EQ(provenance.inputs[0].digest.size(), 32u);
+}
+
+TEST_F(Chain, EveryArtifactPassesTheCheck) {
+  run_chain("part.ply", "");
+  for (const std::string& name : kArtifacts) {
+    must("strake check " + name);
+    EXPECT_NE(must("strake info " + name).find("made by"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace strake::pipeline_test

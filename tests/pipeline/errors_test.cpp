@@ -1,0 +1,99 @@
+#include "tests/pipeline/run_program.h"
+
+namespace strake::pipeline_test {
+namespace {
+
+constexpr int kUsage = 2;
+constexpr int kBadInput = 3;
+constexpr int kPrecondition = 4;
+constexpr int kAlgorithmFailed = 5;
+constexpr int kInterrupted = 130;
+
+class Errors : public ProgramTest {
+ protected:
+  Errors() {
+    must("strake sample torus -o torus.ply --faces 2000");
+    must("strake-import torus.ply -o mesh.hdf -q");
+  }
+};
+
+TEST_F(Errors, WrongUsage) {
+  must_fail(kUsage, "strake-tensor mesh.hdf", "--output");
+  must_fail(kUsage, "strake-tensor mesh.hdf -o t.hdf --radius 99%", "--radius");
+  must_fail(kUsage, "strake-tensor mesh.hdf -o t.hdf --radius 99%", "between 0.01% and 50%");
+  must_fail(kUsage, "strake-tensor mesh.hdf -o t.hdf --no-such-option 3", "--no-such-option");
+  must_fail(kUsage, "strake-tensor mesh.hdf -o t.obj", ".hdf");
+  must_fail(kUsage, "strake-tensor mesh.hdf -o t.hdf --threads -2", "--threads");
+  must_fail(kUsage, "strake-tensor mesh.hdf -o mesh.hdf", "is the input");
+  must_fail(kUsage, "strake remesh torus.ply -o torus.stl", ".obj");
+  must_fail(kUsage, "strake remesh torus.ply -o torus.ply", "is the input");
+  must_fail(kUsage, "strake remesh torus.ply -o x.obj --vertices 100 --faces 100", "exclude");
+  must_fail(kUsage, "strake remesh torus.ply -o x.obj --extension papier", "cross, paper");
+  must_fail(kUsage, "strake nothing", "subcommand");
+  must_fail(kUsage, "strake", "subcommand");
+  must_fail(kUsage, "strake sample teapot -o x.ply", "teapot");
+}
+
+TEST_F(Errors, MissingAndUnreadableFiles) {
+  must_fail(kBadInput, "strake-tensor nowhere.hdf -o t.hdf", "nowhere.hdf");
+  must_fail(kBadInput, "strake remesh nowhere.obj -o x.obj", "nowhere.obj");
+  must_fail(kBadInput, "strake remesh . -o x.obj", ".: cannot be read");
+  must_fail(kBadInput, "strake-tensor mesh.hdf -o nowhere/t.hdf", "nowhere");
+  must_fail(kBadInput, "strake info nowhere.obj", "nowhere.obj");
+}
+
+TEST_F(Errors, FilesOfAnotherKind) {
+  must_fail(kBadInput, "strake-tensor torus.ply -o t.hdf", "torus.ply");
+  must_fail(kBadInput, "strake-smooth mesh.hdf mesh.hdf -o f.hdf", "'tensor' is needed");
+  put("text.obj", "nothing of use\n");
+  must_fail(kBadInput, "strake remesh text.obj -o x.obj", "text.obj");
+}
+
+TEST_F(Errors, DamagedFiles) {
+  const std::string whole = bytes("mesh.hdf");
+  put("cut.hdf", whole.substr(0, whole.size() / 2));
+  must_fail(kBadInput, "strake-tensor cut.hdf -o t.hdf", "cut.hdf");
+  must_fail(kBadInput, "strake check cut.hdf", "cut.hdf");
+  std::string flipped = whole;
+  flipped[flipped.size() / 2] = static_cast<char>(flipped[flipped.size() / 2] ^ 4);
+  put("flipped.hdf", flipped);
+  must_fail(kBadInput, "strake-tensor flipped.hdf -o t.hdf", "flipped.hdf");
+}
+
+TEST_F(Errors, InputsThatDoNotBelongTogether) {
+  must("strake sample sphere -o sphere.ply --faces 2000");
+  must("strake-import sphere.ply -o sphere.hdf -q");
+  must("strake-tensor sphere.hdf -o tensor.hdf -q");
+  must_fail(kPrecondition, "strake-smooth mesh.hdf tensor.hdf -o f.hdf", "another mesh");
+}
+
+TEST_F(Errors, UnsoundMeshesFailTheCheck) {
+  put("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\nf 1 2 3\nf 1 2 4\n");
+  must_fail(kAlgorithmFailed, "strake check open.obj", "not sound");
+  put("pentagon.obj", "v 0 0 0\nv 1 0 0\nv 2 1 0\nv 1 2 0\nv 0 1 0\nf 1 2 3 4 5\n");
+  must("strake check pentagon.obj");
+  must_fail(kAlgorithmFailed, "strake check pentagon.obj --max-sides 4", "5 sides");
+  must("strake check torus.ply");
+}
+
+TEST_F(Errors, OldOutputSurvivesAFailure) {
+  put("out.obj", "old\n");
+  put("bad.obj", "f 1 2 3\n");
+  must_fail(kBadInput, "strake remesh bad.obj -o out.obj", "bad.obj");
+  EXPECT_EQ(bytes("out.obj"), "old\n");
+}
+
+TEST_F(Errors, InterruptionStopsWithoutOutput) {
+  must("strake sample sphere -o large.ply --faces 300000");
+  const std::string program = STRAKE_BIN "/strake";
+  put("interrupt.sh", program +
+                          " remesh large.ply -o large.obj 2>err.txt & p=$!\n"
+                          "until grep -q tensor: err.txt; do sleep 0.02; done\n"
+                          "kill -TERM $p\nwait $p\n");
+  const Outcome outcome = shell("bash interrupt.sh");
+  EXPECT_EQ(outcome.exit_code, kInterrupted) << bytes("err.txt");
+  EXPECT_FALSE(std::filesystem::exists(file("large.obj")));
+}
+
+}  // namespace
+}  // namespace strake::pipeline_test

@@ -1,0 +1,80 @@
+#include <cmath>
+
+#include "common/artifact/artifact.h"
+#include "common/artifact/meshfile/mesh_reader.h"
+#include "tests/pipeline/run_program.h"
+
+namespace strake::pipeline_test {
+namespace {
+
+class FrontEnd : public ProgramTest {
+ protected:
+  FrontEnd() { must("strake sample torus -o torus.ply --faces 8000"); }
+  PolyMesh read(const std::string& name) {
+    ReadReport report;
+    return read_mesh(file(name), report);
+  }
+};
+
+TEST_F(FrontEnd, RemeshesWithNothingButNames) {
+  const std::string summary = must("strake remesh torus.ply -o out.obj");
+  EXPECT_NE(summary.find("out.obj"), std::string::npos);
+  EXPECT_NE(summary.find("oriented manifold, as the input"), std::string::npos) << summary;
+  must("strake check out.obj --max-sides 5");
+}
+
+TEST_F(FrontEnd, WritesTheSameMeshInEveryFormat) {
+  for (const char* name : {"out.obj", "out.ply", "out.off", "out.hdf"}) {
+    must(std::string("strake remesh torus.ply -q --no-evaluate -o ") + name);
+  }
+  const PolyMesh expected = read_quad_mesh(file("out.hdf")).mesh;
+  for (const char* name : {"out.obj", "out.ply", "out.off"}) {
+    const PolyMesh mesh = read(name);
+    EXPECT_EQ(mesh.positions, expected.positions) << name;
+    EXPECT_EQ(mesh.corners, expected.corners) << name;
+    EXPECT_EQ(mesh.offsets, expected.offsets) << name;
+  }
+}
+
+TEST_F(FrontEnd, MeetsAWantedCount) {
+  for (const int wanted : {400, 1500}) {
+    const std::string count = std::to_string(wanted);
+    must("strake remesh torus.ply -q --no-evaluate -o v.obj --vertices " + count);
+    must("strake remesh torus.ply -q --no-evaluate -o f.obj --faces " + count);
+    EXPECT_NEAR(read("v.obj").vertex_count(), wanted, 0.1 * wanted);
+    EXPECT_NEAR(read("f.obj").face_count(), wanted, 0.1 * wanted);
+  }
+}
+
+TEST_F(FrontEnd, WarnsWhereACountIsOutOfReach) {
+  const Outcome outcome = run("strake remesh torus.ply --no-evaluate -o v.obj --vertices 4");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("warning: 4 vertices were wanted"), std::string::npos) << outcome.err;
+}
+
+TEST_F(FrontEnd, QuietSaysNothing) {
+  const Outcome outcome = run("strake remesh torus.ply -o out.obj -q");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.out + outcome.err, "");
+}
+
+TEST_F(FrontEnd, ReportHoldsEveryStage) {
+  must("strake remesh torus.ply -o out.obj -q --report report.json");
+  const std::string report = bytes("report.json");
+  for (const char* stage : {"import", "tensor", "smooth", "trace", "mesh", "evaluate"}) {
+    EXPECT_NE(report.find("\"stage\": \"" + std::string(stage) + "\""), std::string::npos) << stage;
+  }
+}
+
+TEST_F(FrontEnd, TellsItsVersionAndOptions) {
+  EXPECT_EQ(must("strake --version").find("strake "), 0u);
+  EXPECT_EQ(must("strake-trace --version").find("strake-trace "), 0u);
+  const std::string help = must("strake remesh --help");
+  for (const char* option : {"--tolerance", "--vertices", "--feature-angle", "--seed", "--radius",
+                             "--threads", "--keep"}) {
+    EXPECT_NE(help.find(option), std::string::npos) << option;
+  }
+}
+
+}  // namespace
+}  // namespace strake::pipeline_test
