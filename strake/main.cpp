@@ -1,3 +1,4 @@
+#include "common/core/error.h"
 #include "strake/commands.h"
 
 int main(int argc, char** argv) {
@@ -10,6 +11,12 @@ int main(int argc, char** argv) {
     strake::add_info_command(app, chosen);
     strake::add_check_command(app, chosen);
     strake::add_sample_command(app, chosen);
+    app.add_subcommand("run", "Run a pipeline file (not there yet).")->callback([&] {
+      chosen = []() -> int {
+        throw strake::UsageError(
+            "'strake run' is not there yet; use 'strake remesh' or the programs of the stages");
+      };
+    });
     if (const auto exit_code = strake::parse_command_line(app, argc, argv)) return *exit_code;
     return chosen();
   });

@@ -1,0 +1,99 @@
+"""Reads each artifact with VTK's own VTKHDF reader: vtk_check.py FOLDER_OF_PROGRAMS.
+
+Exit code 77 (skip) where this Python has no VTK.
+"""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+try:
+    from vtkmodules.vtkIOHDF import vtkHDFReader
+except ImportError:
+    print("skipped: install python3-vtk9 to run this test")
+    sys.exit(77)
+
+TRIANGLE, POLY_LINE = 5, 4
+
+
+def read(path):
+    reader = vtkHDFReader()
+    assert reader.CanReadFile(str(path)), f"{path.name}: VTK does not recognise it"
+    reader.SetFileName(str(path))
+    reader.Update()
+    return reader.GetOutput()
+
+
+def arrays(attributes):
+    return {attributes.GetArrayName(i): attributes.GetArray(i)
+            for i in range(attributes.GetNumberOfArrays())}
+
+
+def require(condition, text):
+    if not condition:
+        sys.exit(f"vtk_check: {text}")
+
+
+def check(grid, name, cells, point_arrays, cell_arrays):
+    require(grid.GetNumberOfCells() == cells, f"{name}: {grid.GetNumberOfCells()} cells")
+    points = arrays(grid.GetPointData())
+    for array, components in point_arrays.items():
+        require(array in points, f"{name}: no point data {array}")
+        require(points[array].GetNumberOfComponents() == components, f"{name}: {array}")
+        require(points[array].GetNumberOfTuples() == grid.GetNumberOfPoints(), f"{name}: {array}")
+    found = arrays(grid.GetCellData())
+    for array in cell_arrays:
+        require(array in found, f"{name}: no cell data {array}")
+        require(found[array].GetNumberOfTuples() == cells, f"{name}: {array}")
+
+
+def count(programs, path, dataset):
+    """Rows of a dataset, as `strake info` tells them."""
+    text = subprocess.run([programs / "strake", "info", path], check=True, capture_output=True,
+                          text=True).stdout
+    for line in text.splitlines():
+        words = line.split()
+        if words and words[0] == dataset:
+            return int(words[1])
+    sys.exit(f"vtk_check: strake info names no {dataset}")
+
+
+def main():
+    programs = pathlib.Path(sys.argv[1])
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        subprocess.run([programs / "strake", "sample", "part", "-o", folder / "part.ply", "--faces",
+                        "9000"], check=True)
+        subprocess.run([programs / "strake", "remesh", folder / "part.ply", "-o",
+                        folder / "out.obj", "--keep", folder, "-q"], check=True)
+        faces = count(programs, folder / "mesh.hdf", "/mesh/source_face")
+        lines = count(programs, folder / "lines.hdf", "/lines/family")
+        quads = count(programs, folder / "quads.hdf", "/quads/offsets") - 1
+
+        mesh = read(folder / "mesh.hdf")
+        check(mesh, "mesh", faces, {"is_corner": 1, "source_vertex": 1}, ["source_face"])
+        require(mesh.GetCellType(0) == TRIANGLE, "mesh: cells are no triangles")
+        check(read(folder / "tensor.hdf"), "tensor", faces, {"tensor": 6, "normal": 3}, [])
+        check(read(folder / "field.hdf"), "field", faces,
+              {"normal": 3, "t_min": 3, "cross": 3, "k_min": 1, "k_max": 1, "wedge_confidence": 1},
+              ["face_confidence"])
+        line_set = read(folder / "lines.hdf")
+        check(line_set, "lines", lines, {"chord_family": 1},
+              ["family", "start_reason", "end_reason", "seed_point"])
+        require(any(line_set.GetCellType(i) == POLY_LINE for i in range(lines)),
+                "lines: no polylines")
+        result = read(folder / "quads.hdf")
+        check(result, "quads", quads,
+              {"source_face": 1, "source_barycentric": 3, "source_lines": 2}, [])
+
+        # The same surface in every artifact: equal boxes, up to the distance of the result.
+        box = mesh.GetBounds()
+        diagonal = sum((box[2 * i + 1] - box[2 * i]) ** 2 for i in range(3)) ** 0.5
+        for other in (read(folder / "tensor.hdf"), line_set, result):
+            for a, b in zip(box, other.GetBounds()):
+                require(abs(a - b) < 0.05 * diagonal, "the boxes of the artifacts differ")
+    print("VTK reads every artifact")
+
+
+main()
