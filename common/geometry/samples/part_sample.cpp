@@ -182,70 +182,80 @@ class PartDesign {
     add(plane_surface(lid), size_, {inner, boss_rim_});
   }
 
-  /// The boss, its fillet and the rib, which cuts a notch into both.
-  void draw_boss_and_rib() {
-    const double foot = kBossRadius + kFilletRadius, neck_z = kTop + kFilletRadius;
-    const double w = kRibHalfWidth, apex = kTop + kRibTip;  // the rib's top: x + z = apex
-    const double boss_x = std::sqrt(kBossRadius * kBossRadius - w * w);
-    const double foot_x = std::sqrt(foot * foot - w * w);
-    const double boss_angle = std::asin(w / kBossRadius), foot_angle = std::asin(w / foot);
-    const double turn = 2 * std::numbers::pi;
+  // The rib stands on the plate, leans on the boss, and cuts a notch into its fillet.
+  static constexpr double kFoot = kBossRadius + kFilletRadius, kNeckHeight = kTop + kFilletRadius;
+  static constexpr double kApex = kTop + kRibTip;  ///< the top of the rib is x + z = kApex
 
-    std::array<Index, 2> on_foot{}, on_neck{}, on_boss{}, tip{};
-    Curves blend, rise, ground, slope;
+  /// The curves of the rib, each twice where it has two sides: y > 0 first.
+  struct Rib {
+    std::array<Index, 2> on_foot, on_neck, on_boss, tip;  ///< corners
+    std::array<Index, 2> blend, rise, ground, slope;      ///< along fillet, boss, plate, top
+    Index front, crown;                                   ///< across, at the tip and the boss
+  };
+
+  Rib draw_rib() {
+    Rib rib{};
+    const double w = kRibHalfWidth, spacing = fine(kFilletRadius);
+    const double boss_x = std::sqrt(kBossRadius * kBossRadius - w * w);
+    const double foot_x = std::sqrt(kFoot * kFoot - w * w);
+    const auto straight = [&](Index from, Index to, const Vec3& a, const Vec3& b) {
+      return builder_.add_curve(from, to, segment(a, b), spacing);
+    };
     for (std::size_t side = 0; side < 2; ++side) {
       const double y = side == 0 ? w : -w;
-      const Vec3 p_foot(foot_x, y, kTop), p_neck(boss_x, y, neck_z);
-      const Vec3 p_boss(boss_x, y, apex - boss_x), p_tip(kRibTip, y, kTop);
-      on_foot[side] = builder_.add_corner(p_foot);
-      on_neck[side] = builder_.add_corner(p_neck);
-      on_boss[side] = builder_.add_corner(p_boss);
-      tip[side] = builder_.add_corner(p_tip);
+      const Vec3 foot(foot_x, y, kTop), neck(boss_x, y, kNeckHeight);
+      const Vec3 boss(boss_x, y, kApex - boss_x), tip(kRibTip, y, kTop);
+      rib.on_foot[side] = builder_.add_corner(foot);
+      rib.on_neck[side] = builder_.add_corner(neck);
+      rib.on_boss[side] = builder_.add_corner(boss);
+      rib.tip[side] = builder_.add_corner(tip);
       const auto toric = [=](double t) {
         const double angle = t * std::numbers::pi / 2;
-        const double r = foot - kFilletRadius * std::sin(angle);
-        return Vec3(std::sqrt(r * r - w * w), y, neck_z - kFilletRadius * std::cos(angle));
+        const double r = kFoot - kFilletRadius * std::sin(angle);
+        return Vec3(std::sqrt(r * r - w * w), y, kNeckHeight - kFilletRadius * std::cos(angle));
       };
-      const auto curve = [&](Index from, Index to, const SurfaceBuilder::CurveFunction& at,
-                             double spacing) { return builder_.add_curve(from, to, at, spacing); };
-      blend.push_back(curve(on_foot[side], on_neck[side], toric, fine(kFilletRadius)));
-      rise.push_back(
-          curve(on_neck[side], on_boss[side], segment(p_neck, p_boss), fine(kFilletRadius)));
-      ground.push_back(
-          curve(on_foot[side], tip[side], segment(p_foot, p_tip), fine(kFilletRadius)));
-      slope.push_back(curve(tip[side], on_boss[side], segment(p_tip, p_boss), fine(kFilletRadius)));
+      rib.blend[side] = builder_.add_curve(rib.on_foot[side], rib.on_neck[side], toric, spacing);
+      rib.rise[side] = straight(rib.on_neck[side], rib.on_boss[side], neck, boss);
+      rib.ground[side] = straight(rib.on_foot[side], rib.tip[side], foot, tip);
+      rib.slope[side] = straight(rib.tip[side], rib.on_boss[side], tip, boss);
     }
-    const Index front =
-        builder_.add_curve(tip[0], tip[1], segment(Vec3(kRibTip, w, kTop), Vec3(kRibTip, -w, kTop)),
-                           fine(kFilletRadius));
-    const Index crown = builder_.add_curve(
-        on_boss[0], on_boss[1],
-        [=](double t) {
-          const double angle = boss_angle * (1 - 2 * t), x = kBossRadius * std::cos(angle);
-          return Vec3(x, kBossRadius * std::sin(angle), apex - x);
-        },
-        fine(kFilletRadius));
-    const Index foot_arc = builder_.add_curve(
-        on_foot[0], on_foot[1], arc(Vec3(0, 0, kTop), foot, foot_angle, turn - foot_angle),
-        fine(kFilletRadius));
-    const Index neck_arc = builder_.add_curve(
-        on_neck[0], on_neck[1], arc(Vec3(0, 0, neck_z), kBossRadius, boss_angle, turn - boss_angle),
-        fine(kFilletRadius));
+    rib.front = straight(rib.tip[0], rib.tip[1], Vec3(kRibTip, w, kTop), Vec3(kRibTip, -w, kTop));
+    const double half_turn = std::asin(w / kBossRadius);
+    const auto crown = [=](double t) {
+      const double angle = half_turn * (1 - 2 * t), x = kBossRadius * std::cos(angle);
+      return Vec3(x, kBossRadius * std::sin(angle), kApex - x);
+    };
+    rib.crown = builder_.add_curve(rib.on_boss[0], rib.on_boss[1], crown, spacing);
+    return rib;
+  }
+
+  void draw_boss_and_rib() {
+    const Rib rib = draw_rib();
+    // A circle around the boss, open where the rib stands.
+    const auto around = [&](const std::array<Index, 2>& ends, double radius, double z) {
+      const double from = std::asin(kRibHalfWidth / radius);
+      return builder_.add_curve(ends[0], ends[1],
+                                arc(Vec3(0, 0, z), radius, from, 2 * std::numbers::pi - from),
+                                fine(kFilletRadius));
+    };
+    const Index foot = around(rib.on_foot, kFoot, kTop);
+    const Index neck = around(rib.on_neck, kBossRadius, kNeckHeight);
 
     Frame frame;
-    frame.origin.z() = neck_z;
-    add(torus_surface(frame, foot, kFilletRadius, true, Side::towards), fine(kFilletRadius),
-        {foot_arc, neck_arc, blend[0], blend[1]});
+    frame.origin.z() = kNeckHeight;
+    add(torus_surface(frame, kFoot, kFilletRadius, true, Side::towards), fine(kFilletRadius),
+        {foot, neck, rib.blend[0], rib.blend[1]});
     add(cylinder_surface(frame, kBossRadius, Side::away), fine(kBossRadius),
-        {neck_arc, rise[0], rise[1], crown, boss_rim_, cross_outside_});
+        {neck, rib.rise[0], rib.rise[1], rib.crown, boss_rim_, cross_outside_});
     for (std::size_t side = 0; side < 2; ++side) {
       const Vec3 outwards = side == 0 ? Vec3::UnitY() : Vec3(-Vec3::UnitY());
-      const Frame flank = Frame::along(w * outwards, outwards, Vec3::UnitX());
-      add(plane_surface(flank), size_, {ground[side], slope[side], rise[side], blend[side]});
+      const Frame flank = Frame::along(kRibHalfWidth * outwards, outwards, Vec3::UnitX());
+      add(plane_surface(flank), size_,
+          {rib.ground[side], rib.slope[side], rib.rise[side], rib.blend[side]});
     }
     const Frame ramp = Frame::along(Vec3(kRibTip, 0, kTop), Vec3(1, 0, 1), Vec3::UnitY());
-    add(plane_surface(ramp), size_, {slope[0], slope[1], front, crown});
-    top_.insert(top_.end(), {foot_arc, ground[0], ground[1], front});
+    add(plane_surface(ramp), size_, {rib.slope[0], rib.slope[1], rib.front, rib.crown});
+    top_.insert(top_.end(), {foot, rib.ground[0], rib.ground[1], rib.front});
   }
 
   double size_;

@@ -14,7 +14,8 @@ constexpr double kGoodEnough = 0.6;
 constexpr double kAcceptable = 0.4;  ///< the same for random displacements
 /// New triangles must face along the old surface to within 60 degrees.
 constexpr double kFacing = 0.5;
-constexpr int kFlipSweeps = 20;
+constexpr int kFlipSweeps = 20;        ///< at the end
+constexpr int kFlipSweepsBetween = 2;  ///< before each round of smoothing
 
 /// 1 for an equilateral triangle, 0 for a degenerate one.
 double shape(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -22,8 +23,14 @@ double shape(const Vec3& a, const Vec3& b, const Vec3& c) {
   return 2 * std::sqrt(3.0) * (b - a).cross(c - a).norm() / squares;
 }
 
-double angle_at(const Vec3& apex, const Vec3& a, const Vec3& b) {
-  return std::atan2((a - apex).cross(b - apex).norm(), (a - apex).dot(b - apex));
+/// Whether the angles at c and d over the edge ab add up to more than half a turn: the sine of the
+/// sum is then negative.
+bool is_beyond_delaunay(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const double cos_c = (a - c).dot(b - c), cos_d = (a - d).dot(b - d);
+  if (cos_c >= 0 && cos_d >= 0) return false;
+  const double sin_c = (a - c).cross(b - c).norm(), sin_d = (a - d).cross(b - d).norm();
+  const double lengths = (a - c).norm() * (b - c).norm() * (a - d).norm() * (b - d).norm();
+  return sin_c * cos_d + cos_c * sin_d < -1e-9 * lengths;
 }
 
 /// Half-edge view of a draft: half-edge 3 f + i runs from corner i of face f to the next.
@@ -31,8 +38,8 @@ class Relaxer {
  public:
   explicit Relaxer(SurfaceDraft& draft) : draft_(draft) { connect(); }
 
-  void flip_to_delaunay() {
-    for (int sweep = 0; sweep < kFlipSweeps; ++sweep) {
+  void flip_to_delaunay(int sweeps) {
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
       bool changed = false;
       for (Index h = 0; h < static_cast<Index>(twin_.size()); ++h) {
         if (h < twin_[h] && !locked_[h] && wants_flip(h)) {
@@ -141,8 +148,7 @@ class Relaxer {
   bool wants_flip(Index h) {
     const Index g = twin_[h];
     const Index a = from(h), b = to(h), c = to(next(h)), d = to(next(g));
-    constexpr double kPi = 3.14159265358979323846;
-    if (angle_at(at(c), at(a), at(b)) + angle_at(at(d), at(a), at(b)) < kPi + 1e-9) return false;
+    if (!is_beyond_delaunay(at(a), at(b), at(c), at(d))) return false;
     const Vec3 old = (at(b) - at(a)).cross(at(c) - at(a)) + (at(d) - at(a)).cross(at(b) - at(a));
     const Vec3 first = (at(a) - at(c)).cross(at(d) - at(c));
     const Vec3 second = (at(d) - at(c)).cross(at(b) - at(c));
@@ -190,16 +196,16 @@ class Relaxer {
 void relax(SurfaceDraft& draft, int rounds) {
   Relaxer relaxer(draft);
   for (int round = 0; round < rounds; ++round) {
-    relaxer.flip_to_delaunay();
+    relaxer.flip_to_delaunay(kFlipSweepsBetween);
     relaxer.smooth();
   }
-  relaxer.flip_to_delaunay();
+  relaxer.flip_to_delaunay(kFlipSweeps);
 }
 
 void scatter(SurfaceDraft& draft, double amount, UniformRandom& random) {
   Relaxer relaxer(draft);
   relaxer.scatter(amount, random);
-  relaxer.flip_to_delaunay();
+  relaxer.flip_to_delaunay(kFlipSweeps);
 }
 
 }  // namespace strake
