@@ -13,6 +13,7 @@
 #include "common/geometry/topology/topology.h"
 #include "stages/import/assemble.h"
 #include "stages/import/features.h"
+#include "stages/import/flat_faces.h"
 #include "stages/import/sheets.h"
 #include "stages/import/soup.h"
 #include "stages/import/triangulate.h"
@@ -159,7 +160,8 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
   import::weld_borders(triangles, frame.diagonal, repairs);
   import::drop_degenerate_faces(triangles, repairs);
   import::drop_duplicate_faces(triangles, repairs);
-  import::make_manifold(triangles, repairs);
+  import::remove_flat_faces(triangles, import::make_manifold(triangles, repairs), frame.diagonal,
+                            repairs);
   if (triangles.faces.empty()) throw InputError("the mesh has no face left after the repairs");
   if (options.strict) refuse_repairs(repairs);
 

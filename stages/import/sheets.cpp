@@ -309,7 +309,7 @@ bool separate_double_edges(Soup& soup, std::vector<Index>& twin, Repairs& repair
 
 }  // namespace
 
-void make_manifold(Soup& soup, Repairs& repairs) {
+std::vector<Index> make_manifold(Soup& soup, Repairs& repairs) {
   std::vector<Index> twin(soup.halfedge_count(), kNone);
   std::vector<Index> crowded;  // groups of three faces and more
   {
@@ -328,6 +328,7 @@ void make_manifold(Soup& soup, Repairs& repairs) {
   split_vertices(soup, twin, repairs);
   while (!crowded.empty() && separate_double_edges(soup, twin, repairs)) {
   }
+  return twin;
 }
 
 }  // namespace strake::import

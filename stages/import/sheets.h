@@ -15,7 +15,8 @@ namespace strake::import {
 /// solids stay closed and sheets run on as flat as they can, the rest is cut apart there; vertices
 /// with several fans get a copy for each; of several edges with the same two end points all but one
 /// get a vertex in their middle.
+/// \return twin [3F] the opposite half-edge of each, kNone on the boundary
 /// \pre no face repeats a corner or the corners of another
-void make_manifold(Soup& soup, Repairs& repairs);
+std::vector<Index> make_manifold(Soup& soup, Repairs& repairs);
 
 }  // namespace strake::import

@@ -37,17 +37,6 @@ std::vector<BucketEntry> bucket_sort(Index buckets, Index count, const Key& key,
   return entries;
 }
 
-void remove_faces(Soup& soup, const std::vector<std::uint8_t>& remove) {
-  Index kept = 0;
-  for (Index f = 0; f < soup.face_count(); ++f) {
-    if (remove[f] != 0) continue;
-    soup.faces[kept] = soup.faces[f];
-    soup.source_face[kept++] = soup.source_face[f];
-  }
-  soup.faces.resize(kept);
-  soup.source_face.resize(kept);
-}
-
 }  // namespace
 
 EdgeGroups::EdgeGroups(const Soup& soup) {
@@ -68,6 +57,17 @@ EdgeGroups::EdgeGroups(const Soup& soup) {
     }
   }
   offsets_.push_back(static_cast<Index>(halfedges_.size()));
+}
+
+void remove_faces(Soup& soup, const std::vector<std::uint8_t>& remove) {
+  Index kept = 0;
+  for (Index f = 0; f < soup.face_count(); ++f) {
+    if (remove[f] != 0) continue;
+    soup.faces[kept] = soup.faces[f];
+    soup.source_face[kept++] = soup.source_face[f];
+  }
+  soup.faces.resize(kept);
+  soup.source_face.resize(kept);
 }
 
 void drop_degenerate_faces(Soup& soup, Repairs& repairs) {

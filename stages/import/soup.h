@@ -60,6 +60,9 @@ class EdgeGroups {
   std::vector<Index> halfedges_;
 };
 
+/// Removes the faces that are marked. \param remove  [F]
+void remove_faces(Soup& soup, const std::vector<std::uint8_t>& remove);
+
 /// Removes faces with a repeated corner.
 void drop_degenerate_faces(Soup& soup, Repairs& repairs);
 

@@ -269,5 +269,42 @@ TEST(Repair, TrianglesWithoutAreaThatHoldTheSurfaceTogetherStay) {
   EXPECT_NEAR(shapes::area(result), 1.5, 1e-14);
 }
 
+TEST(Repair, FlatTriangleIsFlippedAway) {
+  // Vertex 4 lies on the edge (2, 3): the triangle between has no area.
+  const PolyMesh mesh = shapes::polygons({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0),
+                                          Vec3(1, 1, 0), Vec3(0.5, 1, 0), Vec3(0.5, 2, 0)},
+                                         {{0, 1, 3}, {0, 3, 2}, {2, 3, 4}, {2, 4, 5}, {4, 3, 5}});
+  const ImportResult result = imported(mesh);
+  EXPECT_EQ(count(result.report, "repairs.flipped_edges"), 1);
+  EXPECT_EQ(result.mesh.face_count(), 5);
+  EXPECT_EQ(census(result.mesh).euler_characteristic, 1);
+  EXPECT_NEAR(shapes::area(result.mesh), 1.5, 1e-14);
+  for (const auto& [a, b, c] : result.mesh.faces) {
+    const Vec3& p = result.mesh.positions[a];
+    EXPECT_GT((result.mesh.positions[b] - p).cross(result.mesh.positions[c] - p).z(), 0.1);
+  }
+}
+
+TEST(Repair, EdgesOfNoLengthCollapse) {
+  PolyMesh mesh = shapes::torus(12, 9);
+  mesh.positions[1] = Vec3(mesh.positions[0]);
+  mesh.positions[40] = Vec3(mesh.positions[41]);
+  const ImportResult result = imported(mesh);
+  EXPECT_EQ(count(result.report, "repairs.collapsed_edges"), 2);
+  EXPECT_EQ(result.mesh.vertex_count(), mesh.vertex_count() - 2);
+  EXPECT_EQ(result.mesh.face_count(), 2 * mesh.face_count() - 4);
+  EXPECT_EQ(census(result.mesh).genus, 1);
+}
+
+TEST(Repair, NoEdgeCollapsesWhereATunnelWouldClose) {
+  // A torus three quads around: two corners of one of its triangular rings coincide. Without the
+  // link condition the ring would be pinched to a point.
+  PolyMesh mesh = shapes::torus(3, 9);
+  mesh.positions[1] = Vec3(mesh.positions[0]);
+  const ImportResult result = imported(mesh);
+  EXPECT_EQ(result.mesh.vertex_count(), mesh.vertex_count());
+  EXPECT_EQ(census(result.mesh).genus, 1);
+}
+
 }  // namespace
 }  // namespace strake

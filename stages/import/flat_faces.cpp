@@ -1,0 +1,203 @@
+#include "stages/import/flat_faces.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+namespace strake::import {
+namespace {
+
+constexpr double kZeroLength = 1e-10;  ///< of the diagonal
+constexpr double kFlat = 1e-6;         ///< height over longest edge
+
+Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
+Index prev(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
+
+class FlatFaceRemover {
+ public:
+  FlatFaceRemover(Soup& soup, std::vector<Index>& twin, double diagonal, Repairs& repairs)
+      : soup_(soup),
+        twin_(twin),
+        shortest_(kZeroLength * diagonal),
+        repairs_(repairs),
+        removed_(soup.faces.size(), 0) {}
+
+  void run() {
+    for (Index h = 0; h < soup_.halfedge_count(); ++h) {
+      if (removed_[h / 3] == 0 && length(h) <= shortest_ && try_collapse(h)) {
+        ++repairs_.collapsed_edges;
+      }
+    }
+    // A flip may leave a flat neighbour that can be flipped in turn; each makes some shape better.
+    constexpr int kRounds = 10;
+    bool has_changed = true;
+    for (int round = 0; round < kRounds && has_changed; ++round) {
+      has_changed = false;
+      for (Index f = 0; f < soup_.face_count(); ++f) {
+        if (removed_[f] != 0 || shape(soup_.faces[f]) > kFlat || !try_flip(longest_edge(f))) {
+          continue;
+        }
+        ++repairs_.flipped_edges;
+        has_changed = true;
+      }
+    }
+  }
+
+  [[nodiscard]] const std::vector<std::uint8_t>& removed() const { return removed_; }
+
+ private:
+  [[nodiscard]] const Vec3& position(Index v) const { return soup_.positions[v]; }
+  [[nodiscard]] double length(Index h) const {
+    return (position(soup_.to(h)) - position(soup_.from(h))).norm();
+  }
+  [[nodiscard]] Index longest_edge(Index f) const {
+    Index best = 3 * f;
+    for (const Index h : {3 * f + 1, 3 * f + 2}) {
+      if (length(h) > length(best)) best = h;
+    }
+    return best;
+  }
+  [[nodiscard]] Vec3 area_vector(const Triangle& face) const {
+    const Vec3& p = position(face[0]);
+    return (position(face[1]) - p).cross(position(face[2]) - p);
+  }
+  /// Height over the longest edge.
+  [[nodiscard]] double shape(const Triangle& face) const {
+    const double longest = std::max({(position(face[1]) - position(face[0])).squaredNorm(),
+                                     (position(face[2]) - position(face[1])).squaredNorm(),
+                                     (position(face[0]) - position(face[2])).squaredNorm()});
+    return longest > 0 ? area_vector(face).norm() / longest : 0;
+  }
+
+  /// The vertices around from(h); `is_boundary` tells whether its fan is open.
+  std::vector<Index> neighbours(Index h, bool& is_boundary) const {
+    Index start = h;
+    is_boundary = false;
+    while (!is_boundary) {
+      if (twin_[start] == kNone) {
+        is_boundary = true;
+      } else {
+        start = next(twin_[start]);
+        if (start == h) break;
+      }
+    }
+    std::vector<Index> result;
+    Index e = start;
+    do {
+      result.push_back(soup_.to(e));
+      const Index last = prev(e);
+      e = twin_[last];
+      if (e == kNone) result.push_back(soup_.from(last));
+    } while (e != kNone && e != start);
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+
+  [[nodiscard]] std::size_t valence(Index h) const {
+    bool ignored = false;
+    return neighbours(h, ignored).size();
+  }
+
+  /// Moves to(h) into from(h), where the surface stays a manifold of the same kind.
+  bool try_collapse(Index h) {
+    const Index t = twin_[h];
+    bool from_boundary = false;
+    bool to_boundary = false;
+    const std::vector<Index> around_from = neighbours(h, from_boundary);
+    const std::vector<Index> around_to = neighbours(next(h), to_boundary);
+    std::vector<Index> common;
+    std::set_intersection(around_from.begin(), around_from.end(), around_to.begin(),
+                          around_to.end(), std::back_inserter(common));
+    if (common.size() != (t == kNone ? 1U : 2U)) return false;
+    if (t != kNone && from_boundary && to_boundary) return false;
+    constexpr std::size_t kLeastValence = 4;  // else the apex is left with a folded pair of faces
+    for (const Index side : {h, t}) {
+      if (side == kNone) continue;
+      const bool outer = twin_[next(side)] == kNone || twin_[prev(side)] == kNone;
+      if (outer ? twin_[next(side)] == twin_[prev(side)] : valence(prev(side)) < kLeastValence) {
+        return false;
+      }
+    }
+    const Index kept = soup_.from(h);
+    for (const Index e : outgoing(next(h))) soup_.faces[e / 3][e % 3] = kept;
+    close_up(h);
+    if (t != kNone) close_up(t);
+    return true;
+  }
+
+  [[nodiscard]] std::vector<Index> outgoing(Index h) const {
+    std::vector<Index> result = {h};
+    Index e = twin_[prev(h)];
+    for (; e != kNone && e != h; e = twin_[prev(e)]) result.push_back(e);
+    if (e == h) return result;
+    for (e = h; twin_[e] != kNone;) {
+      e = next(twin_[e]);
+      result.push_back(e);
+    }
+    return result;
+  }
+
+  /// Removes the face of h and joins what lies beyond its two other edges.
+  void close_up(Index h) {
+    const Index a = twin_[next(h)];
+    const Index b = twin_[prev(h)];
+    if (a != kNone) twin_[a] = b;
+    if (b != kNone) twin_[b] = a;
+    removed_[h / 3] = 1;
+  }
+
+  /// Replaces edge h by the other diagonal of its two faces.
+  bool try_flip(Index h) {
+    const Index t = twin_[h];
+    if (t == kNone) return false;
+    const Index from = soup_.from(h);
+    const Index to = soup_.to(h);
+    const Index apex = soup_.from(prev(h));
+    const Index other = soup_.from(prev(t));
+    const Triangle first = {apex, other, to};
+    const Triangle second = {other, apex, from};
+    const double before = std::min(shape(soup_.faces[h / 3]), shape(soup_.faces[t / 3]));
+    if (!(std::min(shape(first), shape(second)) > 2 * before + kFlat)) return false;
+    const Vec3 normal = area_vector(soup_.faces[t / 3]);
+    if (area_vector(first).dot(normal) <= 0 || area_vector(second).dot(normal) <= 0) return false;
+    bool ignored = false;
+    const std::vector<Index> around = neighbours(prev(h), ignored);
+    if (std::binary_search(around.begin(), around.end(), other)) return false;
+
+    const std::array<Index, 4> beyond = {twin_[next(h)], twin_[prev(h)], twin_[next(t)],
+                                         twin_[prev(t)]};
+    const Index f = 3 * (h / 3);
+    const Index g = 3 * (t / 3);
+    soup_.faces[f / 3] = first;
+    soup_.faces[g / 3] = second;
+    link(f, g);
+    link(f + 1, beyond[3]);
+    link(f + 2, beyond[0]);
+    link(g + 1, beyond[1]);
+    link(g + 2, beyond[2]);
+    return true;
+  }
+
+  void link(Index h, Index t) {
+    twin_[h] = t;
+    if (t != kNone) twin_[t] = h;
+  }
+
+  Soup& soup_;
+  std::vector<Index>& twin_;
+  double shortest_;
+  Repairs& repairs_;
+  std::vector<std::uint8_t> removed_;
+};
+
+}  // namespace
+
+void remove_flat_faces(Soup& soup, std::vector<Index> twin, double diagonal, Repairs& repairs) {
+  FlatFaceRemover remover(soup, twin, diagonal, repairs);
+  remover.run();
+  remove_faces(soup, remover.removed());
+}
+
+}  // namespace strake::import
