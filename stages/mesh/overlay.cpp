@@ -102,9 +102,7 @@ class EdgeCutter {
     std::size_t at = 0;
     for (Index h = 0; h < mesh_.halfedge_count(); ++h) {
       if (mesh_.edge_of(h) != h) continue;
-      const EdgeKind kind = mesh_.is_boundary(h)        ? EdgeKind::boundary
-                            : mesh_.is_feature[h] != 0 ? EdgeKind::feature
-                                                       : EdgeKind::surface;
+      const EdgeKind kind = mesh_.is_boundary(h) ? EdgeKind::boundary : EdgeKind::surface;
       first_[h] = overlay_.graph.dart_count() / 2;
       Index from = mesh_.from(h);
       for (; at < points_.size() && points_[at].edge == h; ++at) {
@@ -126,7 +124,10 @@ class EdgeCutter {
       for (Index p = lines.offsets[l]; p < lines.offsets[l + 1]; ++p) {
         if (lines.chord_face[p] != kNone) continue;
         const Index e = mesh_.edge_of(lines.points[p].halfedge);
-        for (Index k = 0; k < count_[e]; ++k) overlay_.line[first_[e] + k] = l;
+        for (Index k = first_[e]; k < first_[e] + count_[e]; ++k) {
+          overlay_.line[k] = l;
+          if (overlay_.kind[k] == EdgeKind::surface) overlay_.kind[k] = EdgeKind::feature;
+        }
       }
     }
   }

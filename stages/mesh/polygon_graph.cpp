@@ -27,7 +27,10 @@ std::vector<char> kept_nodes(const TriMesh& mesh, const Overlay& overlay) {
   }
   for (std::size_t n = 0; n < overlay.nodes.size(); ++n) {
     const Index v = overlay.nodes[n].vertex;
-    if (degree[n] > 0 && (degree[n] != 2 || (v != kNone && mesh.is_corner[v] != 0))) kept[n] = 1;
+    if (degree[n] == 0) continue;
+    const EdgeKind kind = overlay.kind[DartGraph::edge_of(some_dart[n])];
+    const bool on_barrier = kind == EdgeKind::feature || kind == EdgeKind::boundary;
+    if (degree[n] != 2 || (on_barrier && v != kNone && mesh.is_corner[v] != 0)) kept[n] = 1;
   }
   // Rings without any such node keep an arbitrary one.
   std::vector<char> seen(overlay.nodes.size(), 0);
@@ -70,8 +73,9 @@ PolygonGraph::PolygonGraph(const TriMesh& mesh, const Overlay& overlay) : mesh_(
   rank_.assign(nodes_.size(), NodeRank::line);
   for (Index d = 0; d < graph_.dart_count(); ++d) {
     const Index n = graph_.from(d);
-    if (is_barrier(d)) rank_[n] = std::max(rank_[n], NodeRank::barrier);
-    if (nodes_[n].vertex != kNone && mesh.is_corner[nodes_[n].vertex] != 0) rank_[n] = NodeRank::corner;
+    if (!is_barrier(d)) continue;
+    const Index v = nodes_[n].vertex;
+    rank_[n] = v != kNone && mesh.is_corner[v] != 0 ? NodeRank::corner : NodeRank::barrier;
   }
 }
 

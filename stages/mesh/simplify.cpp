@@ -8,8 +8,8 @@ namespace strake {
 namespace {
 
 /// Feature and boundary edges are divided where their course leaves the straight edge by more than
-/// this share of its length (about 14 degrees of turning).
-constexpr double kLargestSagitta = 0.03;
+/// this share of the local size.
+constexpr double kLargestSagitta = 0.06;
 /// A face may not turn by more than this when one of its nodes moves.
 constexpr double kLeastTurnCosine = 0.3;
 
@@ -121,7 +121,7 @@ void contract_short_edges(PolygonGraph& graph, const LocalSize& size, double sho
   }
 }
 
-void divide_bent_barriers(PolygonGraph& graph, SimplifyCounts& counts) {
+void divide_bent_barriers(PolygonGraph& graph, const LocalSize& size, SimplifyCounts& counts) {
   const DartGraph& g = graph.graph();
   for (Index d = 0; d < g.dart_count(); d += 2) {  // new edges come last and are looked at too
     if (!g.is_alive(d) || !graph.is_barrier(d) || g.from(d) == g.to(d)) continue;
@@ -129,7 +129,8 @@ void divide_bent_barriers(PolygonGraph& graph, SimplifyCounts& counts) {
     const Vec3 along = course.back() - course.front();
     const double length = along.norm();
     if (course.size() < 3 || !(length > 0)) continue;
-    double worst = kLargestSagitta * length;
+    double worst = kLargestSagitta *
+                   std::min(size(graph.node(g.from(d))), size(graph.node(g.to(d))));
     double arc = 0;
     double worst_arc = -1;
     for (std::size_t i = 1; i + 1 < course.size(); ++i) {
@@ -175,8 +176,8 @@ bool can_contract(const PolygonGraph& graph, Index dart) {
   const DartGraph& g = graph.graph();
   const Index u = g.from(dart);
   const Index v = g.to(dart);
-  if (u == v || graph.rank(u) > graph.rank(v) || graph.rank(u) == NodeRank::corner) return false;
-  if (graph.rank(u) == NodeRank::barrier && !graph.is_barrier(dart)) return false;
+  if (u == v || graph.rank(u) > graph.rank(v)) return false;
+  if (graph.rank(u) != NodeRank::line && !graph.is_barrier(dart)) return false;
   if (!only_one_edge_to(graph, dart) || !only_one_edge_to(graph, DartGraph::opposite(dart))) return false;
   int triangles = 0;
   for (const Index side : {dart, DartGraph::opposite(dart)}) {
@@ -220,7 +221,7 @@ SimplifyCounts simplify(PolygonGraph& graph, const LocalSize& size, double short
     if (g.is_alive(d) && try_dissolve(graph, d)) ++counts.dissolved_nodes;
   }
   separate_edges(graph, counts);
-  divide_bent_barriers(graph, counts);
+  divide_bent_barriers(graph, size, counts);
   return counts;
 }
 

@@ -2,12 +2,20 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "common/geometry/mesh_measures.h"
 
 namespace strake {
 namespace {
+
+/// Free ends shorter than this many line distances are left out.
+constexpr double kShortestFreeEnd = 1.5;
+/// Groups of joined lines shorter than this in all are left out, with and without a ring.
+constexpr double kSmallestTree = 3;
+constexpr double kSmallestRing = 1;
+
 
 /// The barrier half-edge that continues a line after `h`, or kNone at a corner or end.
 Index next_along(const TriMesh& mesh, Index h, bool boundary) {
@@ -47,9 +55,7 @@ double spacing_along_edge(const TraceDomain& domain, Index h) {
   return least;
 }
 
-}  // namespace
-
-std::vector<BarrierLine> barrier_lines(const TriMesh& mesh) {
+std::vector<BarrierLine> all_lines(const TriMesh& mesh) {
   std::vector<BarrierLine> lines;
   std::vector<char> used(mesh.halfedge_count(), 0);
   const auto starts_line = [&](Index h) {
@@ -83,6 +89,98 @@ std::vector<BarrierLine> barrier_lines(const TriMesh& mesh) {
     if (used[h] == 0 && mesh.is_barrier(h)) collect(h);
   }
   return lines;
+}
+
+/// Marks lines that are too small for the wanted distances, until no more are found.
+std::vector<char> too_small(const TriMesh& mesh, const std::vector<BarrierLine>& lines) {
+  std::vector<char> dropped(lines.size(), 0);
+  const auto ends = [&](const BarrierLine& line) {
+    return std::array<Index, 2>{mesh.from(line.halfedges.front()), mesh.to(line.halfedges.back())};
+  };
+  std::vector<Index> degree(mesh.vertex_count(), 0);
+  for (const BarrierLine& line : lines) {
+    if (line.closed) continue;
+    for (const Index v : ends(line)) ++degree[v];
+  }
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t l = 0; l < lines.size(); ++l) {
+      const BarrierLine& line = lines[l];
+      if (dropped[l] != 0 || line.closed || line.boundary) continue;
+      const auto [a, b] = ends(line);
+      if ((degree[a] > 1 && degree[b] > 1) || line.measure >= kShortestFreeEnd) continue;
+      dropped[l] = 1;
+      --degree[a];
+      --degree[b];
+      changed = true;
+    }
+  }
+  // Groups: the smallest line index names the group of each end vertex.
+  std::vector<Index> group(mesh.vertex_count(), kNone);
+  std::vector<Index> parent(lines.size());
+  for (std::size_t l = 0; l < lines.size(); ++l) parent[l] = static_cast<Index>(l);
+  const auto find = [&](Index l) {
+    while (parent[l] != l) l = parent[l] = parent[parent[l]];
+    return l;
+  };
+  std::vector<char> ring(lines.size(), 0);
+  for (std::size_t l = 0; l < lines.size(); ++l) {
+    if (dropped[l] != 0) continue;
+    if (lines[l].closed || lines[l].boundary) ring[find(static_cast<Index>(l))] = 1;
+    if (lines[l].closed) continue;
+    for (const Index v : ends(lines[l])) {
+      const Index own = find(static_cast<Index>(l));
+      if (group[v] == kNone) {
+        group[v] = own;
+        continue;
+      }
+      const Index other = find(group[v]);
+      if (other == own) {
+        ring[own] = 1;
+      } else {
+        parent[std::max(own, other)] = std::min(own, other);
+        if (ring[std::max(own, other)] != 0) ring[std::min(own, other)] = 1;
+      }
+    }
+  }
+  std::vector<double> total(lines.size(), 0);
+  for (std::size_t l = 0; l < lines.size(); ++l) {
+    if (dropped[l] == 0) total[find(static_cast<Index>(l))] += lines[l].measure;
+  }
+  for (std::size_t l = 0; l < lines.size(); ++l) {
+    const Index g = find(static_cast<Index>(l));
+    if (!lines[l].boundary && total[g] < (ring[g] != 0 ? kSmallestRing : kSmallestTree)) dropped[l] = 1;
+  }
+  return dropped;
+}
+
+}  // namespace
+
+std::vector<BarrierLine> barrier_lines(const TraceDomain& domain) {
+  std::vector<BarrierLine> lines = all_lines(domain.mesh);
+  for (BarrierLine& line : lines) {
+    for (const Index h : line.halfedges) {
+      line.measure += edge_vector(domain.mesh, h).norm() / spacing_along_edge(domain, h);
+    }
+  }
+  const std::vector<char> dropped = too_small(domain.mesh, lines);
+  std::vector<BarrierLine> kept;
+  for (std::size_t l = 0; l < lines.size(); ++l) {
+    if (dropped[l] == 0) kept.push_back(std::move(lines[l]));
+  }
+  return kept;
+}
+
+std::vector<std::uint8_t> barrier_flags(const TriMesh& mesh,
+                                        const std::vector<BarrierLine>& lines) {
+  std::vector<std::uint8_t> flags(mesh.halfedge_count(), 0);
+  for (const BarrierLine& line : lines) {
+    for (const Index h : line.halfedges) {
+      flags[h] = 1;
+      if (mesh.twin[h] != kNone) flags[mesh.twin[h]] = 1;
+    }
+  }
+  return flags;
 }
 
 TracedLine to_traced_line(const BarrierLine& line) {
@@ -122,7 +220,8 @@ void seed_along(const TraceDomain& domain, const BarrierLine& line, std::vector<
   }
 }
 
-void seed_at_corners(const TraceDomain& domain, std::vector<Seed>& seeds) {
+void seed_at_corners(const TraceDomain& domain, const std::vector<std::uint8_t>& barriers,
+                     std::vector<Seed>& seeds) {
   const TriMesh& mesh = domain.mesh;
   std::vector<char> done(mesh.wedge_count(), 0);
   for (Index start = 0; start < mesh.halfedge_count(); ++start) {
@@ -134,6 +233,7 @@ void seed_at_corners(const TraceDomain& domain, std::vector<Seed>& seeds) {
       first = mesh.rotate_cw(first);
       if (first == start) break;
     }
+    if (barriers[first] == 0) continue;
     double angle = 0;
     Index corner = first;
     do {

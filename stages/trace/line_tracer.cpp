@@ -56,10 +56,12 @@ struct LineTracer::HalfLine {
   Vec3 seed_direction;  ///< world, as the half starts
 };
 
-LineTracer::LineTracer(const TraceDomain& domain, const TracerSettings& settings)
+LineTracer::LineTracer(const TraceDomain& domain, const std::vector<std::uint8_t>& barriers,
+                       const TracerSettings& settings)
     : domain_(domain),
+      barriers_(barriers),
       settings_(settings),
-      proximity_(domain.mesh),
+      proximity_(domain.mesh, barriers),
       covered_(domain.mesh.wedge_count(), 0) {}
 
 LineTracer::Head LineTracer::start_head(const Seed& seed, bool forward) const {
@@ -221,7 +223,7 @@ bool LineTracer::pass_vertex(Head& head, Index corner, const Vec2& direction, Ha
   const Index v = mesh.from(corner);
   bool barrier = false;
   for (Index h = mesh.vertex_out[v];;) {
-    barrier = barrier || mesh.is_barrier(h) || mesh.is_barrier(TriMesh::prev(h));
+    barrier = barrier || barriers_[h] != 0 || barriers_[TriMesh::prev(h)] != 0;
     h = mesh.rotate_ccw(h);
     if (h == kNone || h == mesh.vertex_out[v]) break;
   }

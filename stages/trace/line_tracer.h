@@ -35,7 +35,9 @@ struct TracerSettings {
 /// Traces lines one by one and keeps what later lines must respect ([MK04] sections 3 and 4.2).
 class LineTracer {
  public:
-  LineTracer(const TraceDomain& domain, const TracerSettings& settings);
+  /// \param barriers [3F] half-edges of feature and boundary lines; kept by reference
+  LineTracer(const TraceDomain& domain, const std::vector<std::uint8_t>& barriers,
+             const TracerSettings& settings);
 
   /// Traces the line of a seed in both directions.
   /// \param spawned receives seeds for lines that cross this one, at their wanted distances
@@ -67,6 +69,7 @@ class LineTracer {
             TracedLine& result) const;
 
   const TraceDomain& domain_;
+  const std::vector<std::uint8_t>& barriers_;
   TracerSettings settings_;
   ProximityIndex proximity_;
   std::vector<std::uint8_t> covered_;  ///< [W] bit 0: along the cross, bit 1: across it

@@ -15,8 +15,8 @@ double squared_distance(const Vec3& p, const Vec3& a, const Vec3& b) {
 
 }  // namespace
 
-ProximityIndex::ProximityIndex(const TriMesh& mesh)
-    : mesh_(mesh), head_(mesh.face_count(), kNone), stamp_(mesh.face_count(), 0) {}
+ProximityIndex::ProximityIndex(const TriMesh& mesh, const std::vector<std::uint8_t>& barriers)
+    : mesh_(mesh), barriers_(barriers), head_(mesh.face_count(), kNone), stamp_(mesh.face_count(), 0) {}
 
 void ProximityIndex::insert(Index face, LineSegment segment) {
   segment.next = head_[face];
@@ -43,7 +43,7 @@ void ProximityIndex::grow_cell(Index face, const Vec3& point, double radius) {
   const double limit = radius * radius;
   for (std::size_t at = 0; at < cell_.size(); ++at) {
     for (Index h = 3 * cell_[at]; h < 3 * cell_[at] + 3; ++h) {
-      if (mesh_.is_barrier(h)) continue;
+      if (barriers_[h] != 0) continue;
       const Index other = TriMesh::face_of(mesh_.twin[h]);
       if (stamp_[other] == current_) continue;
       // The edge, not its end points: large faces have none within reach.
@@ -78,7 +78,7 @@ ProximityHit ProximityIndex::query(const ProximityQuery& query) {
       }
     }
     for (Index h = 3 * f; h < 3 * f + 3 && !query.ignore_barriers; ++h) {
-      if (!mesh_.is_barrier(h)) continue;
+      if (barriers_[h] == 0) continue;
       const Vec3& a = mesh_.positions[mesh_.from(h)];
       const Vec3& b = mesh_.positions[mesh_.to(h)];
       if (!same_direction((b - a).normalized())) continue;

@@ -45,7 +45,8 @@ struct ProximityHit {
 /// which count as lines themselves.
 class ProximityIndex {
  public:
-  explicit ProximityIndex(const TriMesh& mesh);
+  /// \param barriers [3F] half-edges of feature and boundary lines; kept by reference
+  ProximityIndex(const TriMesh& mesh, const std::vector<std::uint8_t>& barriers);
 
   void insert(Index face, LineSegment segment);
   /// Takes back the `count` segments inserted last.
@@ -73,6 +74,7 @@ class ProximityIndex {
   void grow_cell(Index face, const Vec3& point, double radius);
 
   const TriMesh& mesh_;
+  const std::vector<std::uint8_t>& barriers_;
   std::vector<LineSegment> segments_;
   std::vector<Index> segment_face_;
   std::vector<Index> head_;            ///< [F] first segment of each face

@@ -10,6 +10,9 @@
 namespace strake {
 namespace {
 
+/// Aspect ratio that grading may give to cells where curvature asks for none.
+constexpr double kGradedAspect = 2;
+
 /// Normal curvature in the tangent direction `d` of wedge w (Euler's formula).
 double normal_curvature(const PrincipalField& field, Index w, const Vec3& d) {
   const double c = field.t_min[w].dot(d);
@@ -17,10 +20,40 @@ double normal_curvature(const PrincipalField& field, Index w, const Vec3& d) {
   return field.k_min[w] * c2 + field.k_max[w] * (1 - c2);
 }
 
+/// Pairs of spacings that feature lines tie together: the distances *along* the line on its two
+/// sides, so that lines that cross it can go on. Keys as in `grade`; sorted, both ways.
+std::vector<std::pair<Index, Index>> links_across_features(const TriMesh& mesh,
+                                                           const PrincipalField& field) {
+  std::vector<std::pair<Index, Index>> links;
+  const auto key_along = [&](Index w, const Vec3& edge) {
+    const Vec3& n = field.normal[w];
+    const Vec3 flat = edge - n * n.dot(edge);
+    const double c = field.cross[w].dot(flat);
+    return c * c >= 0.5 * flat.squaredNorm() ? w : w + mesh.wedge_count();
+  };
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    if (mesh.is_feature[h] == 0) continue;
+    const Vec3 edge = mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)];
+    const Index here = key_along(mesh.wedge_of(h), edge);
+    const Index there = key_along(mesh.wedge_of(TriMesh::next(mesh.twin[h])), edge);
+    links.emplace_back(here, there);
+    links.emplace_back(there, here);
+  }
+  std::sort(links.begin(), links.end());
+  links.erase(std::unique(links.begin(), links.end()), links.end());
+  return links;
+}
+
 /// Bounds the slope of both spacings by a wave from the smallest values outwards; the arms of
 /// neighbouring crosses are matched by direction.
 void grade(const TriMesh& mesh, const PrincipalField& field, double slope, Spacing& spacing) {
   const Index n = mesh.wedge_count();
+  // Where the surface itself is not anisotropic, neither should grading make the cells so.
+  std::vector<double> aspect(n);
+  for (Index w = 0; w < n; ++w) {
+    const auto [small, large] = std::minmax(spacing.along[w], spacing.across[w]);
+    aspect[w] = std::max(kGradedAspect, large / small);
+  }
   const auto value = [&](Index key) -> double& {
     return key < n ? spacing.along[key] : spacing.across[key - n];
   };
@@ -31,11 +64,22 @@ void grade(const TriMesh& mesh, const PrincipalField& field, double slope, Spaci
   std::vector<Index> fill(corner_offsets.begin(), corner_offsets.end() - 1);
   for (Index h = 0; h < mesh.halfedge_count(); ++h) corners[fill[mesh.wedge_of(h)]++] = h;
 
+  const std::vector<std::pair<Index, Index>> links = links_across_features(mesh, field);
   using Entry = std::pair<double, Index>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  const auto lower = [&](Index target, double reach) {
+    if (!(reach < value(target))) return;
+    value(target) = reach;
+    queue.emplace(reach, target);
+  };
   const auto relax_from = [&](Index key) {
     const Index w = key < n ? key : key - n;
     const double here = value(key);
+    lower(key < n ? key + n : key - n, aspect[w] * here);
+    for (auto link = std::lower_bound(links.begin(), links.end(), std::pair{key, kNone});
+         link != links.end() && link->first == key; ++link) {
+      lower(link->second, here);
+    }
     for (Index at = corner_offsets[w]; at < corner_offsets[w + 1]; ++at) {
       const Index h = corners[at];
       for (const Index other : {TriMesh::next(h), TriMesh::prev(h)}) {
@@ -44,11 +88,7 @@ void grade(const TriMesh& mesh, const PrincipalField& field, double slope, Spaci
                                              mesh.positions[mesh.from(h)]).norm();
         const Vec3 arm = rotate_between(field.normal[w], field.normal[v], field.cross[w]);
         const bool same = std::abs(arm.dot(field.cross[v])) >= M_SQRT1_2;
-        const Index target = same == (key < n) ? v : v + n;
-        if (reach < value(target)) {
-          value(target) = reach;
-          queue.emplace(reach, target);
-        }
+        lower(same == (key < n) ? v : v + n, reach);
       }
     }
   };

@@ -17,6 +17,8 @@ namespace strake {
 namespace {
 
 constexpr double kDefaultTolerance = 0.0005;  ///< share of the diagonal
+constexpr Length kDefaultMaxSpacing = percent(5);  ///< [MK04] section 3.2
+constexpr double kLargestCell = 3;            ///< in mean cell lengths, where a count is wanted
 constexpr double kSmallestSpacing = 1e-4;     ///< share of the diagonal
 constexpr Index kSeedsPerComponent = 8;
 constexpr int kTriesPerSeed = 32;
@@ -68,8 +70,9 @@ std::vector<Seed> random_seeds(const TraceDomain& domain, std::int64_t random_se
 /// Traces seeds first come, first served, and collects the lines.
 class LineCollector {
  public:
-  LineCollector(const TraceDomain& domain, const TracerSettings& settings, Observer& observer)
-      : domain_(domain), tracer_(domain, settings), observer_(observer) {}
+  LineCollector(const TraceDomain& domain, const std::vector<std::uint8_t>& barriers,
+                const TracerSettings& settings, Observer& observer)
+      : domain_(domain), tracer_(domain, barriers, settings), observer_(observer) {}
 
   LineTracer& tracer() { return tracer_; }
   LineSet& lines() { return lines_; }
@@ -182,7 +185,7 @@ TraceResult trace_lines(const TriMesh& mesh, const PrincipalField& field,
   if (wanted > 1) throw UsageError("give only one of --tolerance, --vertices and --faces");
   SpacingLimits limits;
   limits.smallest = kSmallestSpacing * mesh.diagonal;
-  limits.largest = options.max_spacing.resolve(mesh.diagonal);
+  limits.largest = options.max_spacing.value_or(kDefaultMaxSpacing).resolve(mesh.diagonal);
   double tolerance = kDefaultTolerance * mesh.diagonal;
   observer.report("choosing line distances", 0);
   if (options.tolerance) tolerance = options.tolerance->resolve(mesh.diagonal);
@@ -190,8 +193,8 @@ TraceResult trace_lines(const TriMesh& mesh, const PrincipalField& field,
     const auto count = static_cast<double>(options.vertices ? *options.vertices : *options.faces);
     double area = 0;
     for (const double a : wedge_areas(mesh)) area += a;
-    // The cap must let the mesh get as coarse as is asked for, even where the surface is flat.
-    limits.largest = std::max(limits.largest, 3 * std::sqrt(area / count));
+    // Relative to the mean cell: flats may be coarse, but not out of proportion.
+    if (!options.max_spacing) limits.largest = kLargestCell * std::sqrt(area / count);
     tolerance = tolerance_for_count(mesh, field, count / kCountPerPrediction, limits);
   }
   Spacing spacing = spacing_for_tolerance(mesh, field, tolerance, limits);
@@ -201,15 +204,17 @@ TraceResult trace_lines(const TriMesh& mesh, const PrincipalField& field,
   const TraceDomain domain{mesh, field, spacing, face_normals(mesh)};
   TracerSettings settings;
   settings.stop_fraction = options.stop_fraction;
-  LineCollector collector(domain, settings, observer);
+  const std::vector<BarrierLine> feature_lines = barrier_lines(domain);
+  const std::vector<std::uint8_t> flags = barrier_flags(mesh, feature_lines);
+  LineCollector collector(domain, flags, settings, observer);
   std::vector<Seed> seeds;
-  for (const BarrierLine& line : barrier_lines(mesh)) {
+  for (const BarrierLine& line : feature_lines) {
     collector.add(to_traced_line(line));
     seed_along(domain, line, seeds);
   }
   const Index barriers = collector.lines().line_count();
   std::vector<Seed> corner_seeds;
-  seed_at_corners(domain, corner_seeds);
+  seed_at_corners(domain, flags, corner_seeds);
   seeds.insert(seeds.begin(), corner_seeds.begin(), corner_seeds.end());
   const std::vector<Seed> anisotropic = random_seeds(domain, options.seed);
   seeds.insert(seeds.end(), anisotropic.begin(), anisotropic.end());

@@ -14,7 +14,8 @@ struct TraceOptions {
   std::optional<std::int64_t> vertices;   ///< wanted vertex count instead of a tolerance
   std::optional<std::int64_t> faces;      ///< wanted face count instead of a tolerance
   double spacing_scale = 1;               ///< factor on all spacings, for corrections of the count
-  Length max_spacing = percent(5);        ///< cap on the distance between lines
+  std::optional<Length> max_spacing;      ///< cap on the distance between lines; default 5 %, or
+                                          ///< three mean cells where a count is wanted
   double stop_fraction = 0.6;             ///< lines stop at this share of the wanted distance
   std::int64_t seed = 1;                  ///< of the random generator that places the first seeds
 
