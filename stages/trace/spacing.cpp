@@ -13,91 +13,43 @@ namespace {
 /// Aspect ratio that grading may give to cells where curvature asks for none.
 constexpr double kGradedAspect = 2;
 
-/// Normal curvature in the tangent direction `d` of wedge w (Euler's formula).
+/// |Normal curvature| in the tangent direction `d` of wedge w (Euler's formula).
 double normal_curvature(const PrincipalField& field, Index w, const Vec3& d) {
   const double c = field.t_min[w].dot(d);
   const double c2 = std::min(1.0, c * c);
-  return field.k_min[w] * c2 + field.k_max[w] * (1 - c2);
+  return std::abs(field.k_min[w] * c2 + field.k_max[w] * (1 - c2));
 }
 
-/// Pairs of spacings that feature lines tie together: the distances *along* the line on its two
-/// sides, so that lines that cross it can go on. Keys as in `grade`; sorted, both ways.
-std::vector<std::pair<Index, Index>> links_across_features(const TriMesh& mesh,
-                                                           const PrincipalField& field) {
-  std::vector<std::pair<Index, Index>> links;
-  const auto key_along = [&](Index w, const Vec3& edge) {
-    const Vec3& n = field.normal[w];
-    const Vec3 flat = edge - n * n.dot(edge);
-    const double c = field.cross[w].dot(flat);
-    return c * c >= 0.5 * flat.squaredNorm() ? w : w + mesh.wedge_count();
-  };
+/// Key of the arm of wedge w's cross that is closer to a direction.
+Index key_of_arm(const PrincipalField& field, Index w, const Vec3& direction) {
+  const Vec3& n = field.normal[w];
+  const Vec3 flat = direction - n * n.dot(direction);
+  const double c = field.cross[w].dot(flat);
+  return c * c >= 0.5 * flat.squaredNorm() ? 2 * w : 2 * w + 1;
+}
+
+/// Calls use(key, other key, distance) for all pairs of values that bound each other.
+template <class Use>
+void for_each_bond(const TriMesh& mesh, const PrincipalField& field, const Use& use) {
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
-    if (mesh.is_feature[h] == 0) continue;
+    if (mesh.twin[h] != kNone && mesh.twin[h] < h && mesh.is_feature[h] == 0) continue;
+    const Index v = mesh.wedge_of(h);
+    const Index w = mesh.wedge_of(TriMesh::next(h));
     const Vec3 edge = mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)];
-    const Index here = key_along(mesh.wedge_of(h), edge);
-    const Index there = key_along(mesh.wedge_of(TriMesh::next(mesh.twin[h])), edge);
-    links.emplace_back(here, there);
-    links.emplace_back(there, here);
-  }
-  std::sort(links.begin(), links.end());
-  links.erase(std::unique(links.begin(), links.end()), links.end());
-  return links;
-}
-
-/// Bounds the slope of both spacings by a wave from the smallest values outwards; the arms of
-/// neighbouring crosses are matched by direction.
-void grade(const TriMesh& mesh, const PrincipalField& field, double slope, Spacing& spacing) {
-  const Index n = mesh.wedge_count();
-  // Where the surface itself is not anisotropic, neither should grading make the cells so.
-  std::vector<double> aspect(n);
-  for (Index w = 0; w < n; ++w) {
-    const auto [small, large] = std::minmax(spacing.along[w], spacing.across[w]);
-    aspect[w] = std::max(kGradedAspect, large / small);
-  }
-  const auto value = [&](Index key) -> double& {
-    return key < n ? spacing.along[key] : spacing.across[key - n];
-  };
-  std::vector<Index> corner_offsets(n + 1, 0);
-  for (Index h = 0; h < mesh.halfedge_count(); ++h) ++corner_offsets[mesh.wedge_of(h) + 1];
-  for (Index w = 0; w < n; ++w) corner_offsets[w + 1] += corner_offsets[w];
-  std::vector<Index> corners(mesh.halfedge_count());
-  std::vector<Index> fill(corner_offsets.begin(), corner_offsets.end() - 1);
-  for (Index h = 0; h < mesh.halfedge_count(); ++h) corners[fill[mesh.wedge_of(h)]++] = h;
-
-  const std::vector<std::pair<Index, Index>> links = links_across_features(mesh, field);
-  using Entry = std::pair<double, Index>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  const auto lower = [&](Index target, double reach) {
-    if (!(reach < value(target))) return;
-    value(target) = reach;
-    queue.emplace(reach, target);
-  };
-  const auto relax_from = [&](Index key) {
-    const Index w = key < n ? key : key - n;
-    const double here = value(key);
-    lower(key < n ? key + n : key - n, aspect[w] * here);
-    for (auto link = std::lower_bound(links.begin(), links.end(), std::pair{key, kNone});
-         link != links.end() && link->first == key; ++link) {
-      lower(link->second, here);
+    const double distance = edge.norm();
+    const Vec3 arm = rotate_between(field.normal[v], field.normal[w], field.cross[v]);
+    const Index turned = std::abs(arm.dot(field.cross[w])) >= M_SQRT1_2 ? 0 : 1;
+    for (const Index side : {0, 1}) {
+      use(2 * v + side, 2 * w + (side ^ turned), distance);
+      use(2 * w + (side ^ turned), 2 * v + side, distance);
     }
-    for (Index at = corner_offsets[w]; at < corner_offsets[w + 1]; ++at) {
-      const Index h = corners[at];
-      for (const Index other : {TriMesh::next(h), TriMesh::prev(h)}) {
-        const Index v = mesh.wedge_of(other);
-        const double reach = here + slope * (mesh.positions[mesh.from(other)] -
-                                             mesh.positions[mesh.from(h)]).norm();
-        const Vec3 arm = rotate_between(field.normal[w], field.normal[v], field.cross[w]);
-        const bool same = std::abs(arm.dot(field.cross[v])) >= M_SQRT1_2;
-        lower(same == (key < n) ? v : v + n, reach);
-      }
-    }
-  };
-  for (Index key = 0; key < 2 * n; ++key) relax_from(key);
-  while (!queue.empty()) {
-    const auto [reached, key] = queue.top();
-    queue.pop();
-    if (reached > value(key)) continue;
-    relax_from(key);
+    if (mesh.is_feature[h] == 0) continue;
+    // Distances along a feature line are the same on its two sides, so that lines can cross it.
+    const Index opposite = mesh.wedge_of(TriMesh::next(mesh.twin[h]));
+    const Index here = key_of_arm(field, v, edge);
+    const Index there = key_of_arm(field, opposite, edge);
+    use(here, there, 0.0);
+    use(there, here, 0.0);
   }
 }
 
@@ -109,44 +61,132 @@ double spacing_for_curvature(double k, double tolerance, double largest) {
   return std::min(largest, 2 * std::sqrt(tolerance * (2 / bounded - tolerance)));
 }
 
-Spacing spacing_for_tolerance(const TriMesh& mesh, const PrincipalField& field, double tolerance,
-                              const SpacingLimits& limits) {
-  const Index n = mesh.wedge_count();
-  Spacing spacing;
-  spacing.along.resize(n);
-  spacing.across.resize(n);
-  const auto distance = [&](Index w, const Vec3& arm) {
-    const double d =
-        spacing_for_curvature(normal_curvature(field, w, arm), tolerance, limits.largest);
-    return std::max(d, limits.smallest);
-  };
-  for (Index w = 0; w < n; ++w) {
-    const double a = distance(w, field.cross[w]);
-    const double b = distance(w, field.normal[w].cross(field.cross[w]));
-    spacing.along[w] = std::min(a, limits.aspect_ratio * b);
-    spacing.across[w] = std::min(b, limits.aspect_ratio * a);
-  }
-  grade(mesh, field, limits.gradation, spacing);
-  return spacing;
-}
-
 double predicted_vertices(const std::vector<double>& areas, const Spacing& spacing) {
   double sum = 0;
-  for (std::size_t w = 0; w < areas.size(); ++w) sum += areas[w] / (spacing.along[w] * spacing.across[w]);
+  for (std::size_t w = 0; w < areas.size(); ++w) {
+    sum += areas[w] / (spacing.along[w] * spacing.across[w]);
+  }
   return sum;
 }
 
-double tolerance_for_count(const TriMesh& mesh, const PrincipalField& field, double count,
-                           const SpacingLimits& limits) {
-  const std::vector<double> areas = wedge_areas(mesh);
-  double low = std::log(1e-9 * mesh.diagonal);
-  double high = std::log(0.2 * mesh.diagonal);
-  for (int round = 0; round < 18; ++round) {
-    const double middle = 0.5 * (low + high);
-    const Spacing spacing = spacing_for_tolerance(mesh, field, std::exp(middle), limits);
-    (predicted_vertices(areas, spacing) > count ? low : high) = middle;
+SpacingModel::SpacingModel(const TriMesh& mesh, const PrincipalField& field)
+    : diagonal_(mesh.diagonal), areas_(wedge_areas(mesh)) {
+  const Index n = mesh.wedge_count();
+  curvature_along_.resize(n);
+  curvature_across_.resize(n);
+  for (Index w = 0; w < n; ++w) {
+    curvature_along_[w] = normal_curvature(field, w, field.cross[w]);
+    curvature_across_[w] = normal_curvature(field, w, field.normal[w].cross(field.cross[w]));
   }
-  return std::exp(0.5 * (low + high));
+  offsets_.assign(2 * static_cast<std::size_t>(n) + 1, 0);
+  for_each_bond(mesh, field, [&](Index key, Index, double) { ++offsets_[key + 1]; });
+  for (std::size_t key = 1; key < offsets_.size(); ++key) offsets_[key] += offsets_[key - 1];
+  neighbours_.resize(offsets_.back());
+  std::vector<Index> fill(offsets_.begin(), offsets_.end() - 1);
+  for_each_bond(mesh, field, [&](Index key, Index other, double distance) {
+    neighbours_[fill[key]++] = {other, distance};
+  });
+}
+
+Spacing SpacingModel::ungraded(double tolerance, const SpacingLimits& limits) const {
+  Spacing spacing;
+  spacing.along.resize(areas_.size());
+  spacing.across.resize(areas_.size());
+  for (std::size_t w = 0; w < areas_.size(); ++w) {
+    const double a = std::max(
+        limits.smallest, spacing_for_curvature(curvature_along_[w], tolerance, limits.largest));
+    const double b = std::max(
+        limits.smallest, spacing_for_curvature(curvature_across_[w], tolerance, limits.largest));
+    spacing.along[w] = std::min(a, limits.aspect_ratio * b);
+    spacing.across[w] = std::min(b, limits.aspect_ratio * a);
+  }
+  return spacing;
+}
+
+/// Bounds the slope of both spacings by a wave from the smallest values outwards.
+void SpacingModel::grade(const SpacingLimits& limits, Spacing& spacing) const {
+  const auto keys = static_cast<Index>(2 * areas_.size());
+  std::vector<double> value(keys);
+  std::vector<double> aspect(areas_.size());
+  for (std::size_t w = 0; w < areas_.size(); ++w) {
+    value[2 * w] = spacing.along[w];
+    value[2 * w + 1] = spacing.across[w];
+    // Where the surface itself is not anisotropic, neither should grading make the cells so.
+    const auto [small, large] = std::minmax(spacing.along[w], spacing.across[w]);
+    aspect[w] = std::max(kGradedAspect, large / small);
+  }
+  using Entry = std::pair<double, Index>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  const auto relax_from = [&](Index key) {
+    const double here = value[key];
+    const auto lower = [&](Index target, double reach) {
+      if (!(reach < value[target])) return;
+      value[target] = reach;
+      queue.emplace(reach, target);
+    };
+    lower(key ^ 1, aspect[key / 2] * here);
+    for (Index at = offsets_[key]; at < offsets_[key + 1]; ++at) {
+      lower(neighbours_[at].key, here + limits.gradation * neighbours_[at].distance);
+    }
+  };
+  // Start from the values that bound a neighbour now; the rest follows in order of size.
+  for (Index key = 0; key < keys; ++key) {
+    bool bounds = aspect[key / 2] * value[key] < value[key ^ 1];
+    for (Index at = offsets_[key]; at < offsets_[key + 1] && !bounds; ++at) {
+      bounds = value[key] + limits.gradation * neighbours_[at].distance < value[neighbours_[at].key];
+    }
+    if (bounds) queue.emplace(value[key], key);
+  }
+  while (!queue.empty()) {
+    const auto [reached, key] = queue.top();
+    queue.pop();
+    if (reached <= value[key]) relax_from(key);
+  }
+  for (std::size_t w = 0; w < areas_.size(); ++w) {
+    spacing.along[w] = value[2 * w];
+    spacing.across[w] = value[2 * w + 1];
+  }
+}
+
+Spacing SpacingModel::for_tolerance(double tolerance, const SpacingLimits& limits) const {
+  Spacing spacing = ungraded(tolerance, limits);
+  grade(limits, spacing);
+  return spacing;
+}
+
+double SpacingModel::tolerance_for_count(double count, const SpacingLimits& limits) const {
+  constexpr double kAccuracy = 0.02;
+  const double least = std::log(1e-9 * diagonal_);
+  const double largest = std::log(0.2 * diagonal_);
+  double low = least;
+  double high = largest;
+  for (int round = 0; round < 24; ++round) {  // without grading: cheap, and not far off
+    const double middle = 0.5 * (low + high);
+    const Spacing spacing = ungraded(std::exp(middle), limits);
+    (predicted_vertices(areas_, spacing) > count ? low : high) = middle;
+  }
+  // Counts fall like a power of the tolerance: secant steps between logarithms from there, kept
+  // within the bracket.
+  double at = 0.5 * (low + high);
+  low = least;
+  high = largest;
+  double slope = -0.8;
+  double last_at = 0;
+  double last_error = 0;
+  for (int round = 0; round < 12; ++round) {
+    const double error =
+        std::log(predicted_vertices(areas_, for_tolerance(std::exp(at), limits)) / count);
+    if (std::abs(error) < kAccuracy) break;
+    (error > 0 ? low : high) = at;
+    if (round > 0 && at != last_at) {
+      slope = std::clamp((error - last_error) / (at - last_at), -2.0, -0.1);
+    }
+    last_at = at;
+    last_error = error;
+    const double next = at - error / slope;
+    at = next > low && next < high ? next : 0.5 * (low + high);
+  }
+  return std::exp(at);
 }
 
 }  // namespace strake

@@ -25,16 +25,41 @@ struct SpacingLimits {
 /// section 3): 2 sqrt(tolerance (2 / |k| - tolerance)), with |k| <= 1 / tolerance.
 double spacing_for_curvature(double k, double tolerance, double largest);
 
-/// Graded spacings for a tolerance. The normal curvature along each arm of the cross counts, so
-/// that nothing depends on which arm is called minimum.
-Spacing spacing_for_tolerance(const TriMesh& mesh, const PrincipalField& field, double tolerance,
-                              const SpacingLimits& limits);
-
-/// Vertices to expect: the integral of dA / (along * across).
+/// Vertices to expect: the integral of dA / (along * across). \param areas [W]
 double predicted_vertices(const std::vector<double>& areas, const Spacing& spacing);
 
-/// The tolerance whose graded spacings predict `count` vertices; found by bisection on its logarithm.
-double tolerance_for_count(const TriMesh& mesh, const PrincipalField& field, double count,
-                           const SpacingLimits& limits);
+/// Computes line distances for one surface and field; keeps what does not depend on the tolerance.
+class SpacingModel {
+ public:
+  SpacingModel(const TriMesh& mesh, const PrincipalField& field);
+
+  /// Graded spacings for a tolerance (model units). The normal curvature along each arm of the cross
+  /// counts, so that nothing depends on which arm is called minimum.
+  [[nodiscard]] Spacing for_tolerance(double tolerance, const SpacingLimits& limits) const;
+
+  /// The tolerance whose graded spacings predict `count` vertices, within 2 % where there is one.
+  [[nodiscard]] double tolerance_for_count(double count, const SpacingLimits& limits) const;
+
+  [[nodiscard]] const std::vector<double>& areas() const { return areas_; }
+
+ private:
+  /// A wedge beside another, or the same vertex's wedge across a feature line.
+  struct Neighbour {
+    Index key = kNone;    ///< value that is bounded by the own one: see `keys`
+    double distance = 0;  ///< on the surface
+  };
+
+  [[nodiscard]] Spacing ungraded(double tolerance, const SpacingLimits& limits) const;
+  void grade(const SpacingLimits& limits, Spacing& spacing) const;
+
+  double diagonal_;
+  std::vector<double> areas_;             ///< [W]
+  std::vector<double> curvature_along_;   ///< [W] |normal curvature| along the cross
+  std::vector<double> curvature_across_;  ///< [W]
+  /// Keys are 2 w for the distance along the cross of wedge w and 2 w + 1 for the one across it.
+  /// The arms of neighbouring crosses are matched by direction.
+  std::vector<Index> offsets_;  ///< [2 W + 1]
+  std::vector<Neighbour> neighbours_;
+};
 
 }  // namespace strake

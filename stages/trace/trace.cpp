@@ -188,16 +188,17 @@ TraceResult trace_lines(const TriMesh& mesh, const PrincipalField& field,
   limits.largest = options.max_spacing.value_or(kDefaultMaxSpacing).resolve(mesh.diagonal);
   double tolerance = kDefaultTolerance * mesh.diagonal;
   observer.report("choosing line distances", 0);
+  const SpacingModel model(mesh, field);
   if (options.tolerance) tolerance = options.tolerance->resolve(mesh.diagonal);
   if (options.vertices || options.faces) {
     const auto count = static_cast<double>(options.vertices ? *options.vertices : *options.faces);
     double area = 0;
-    for (const double a : wedge_areas(mesh)) area += a;
+    for (const double a : model.areas()) area += a;
     // Relative to the mean cell: flats may be coarse, but not out of proportion.
     if (!options.max_spacing) limits.largest = kLargestCell * std::sqrt(area / count);
-    tolerance = tolerance_for_count(mesh, field, count / kCountPerPrediction, limits);
+    tolerance = model.tolerance_for_count(count / kCountPerPrediction, limits);
   }
-  Spacing spacing = spacing_for_tolerance(mesh, field, tolerance, limits);
+  Spacing spacing = model.for_tolerance(tolerance, limits);
   for (double& d : spacing.along) d *= options.spacing_scale;
   for (double& d : spacing.across) d *= options.spacing_scale;
 
