@@ -1,0 +1,253 @@
+#!/usr/bin/env python3
+"""Remeshes the collection of test models and judges every result with an independent meter.
+
+    check_corpus.py SUITE --strake PROGRAM [--models FOLDER] [--meter PROGRAM] [NAME...]
+
+Suites:
+  default  every manifold model of scan, cad, genus and open, with strake's defaults: the same
+           topology, an oriented manifold, at most 5 sides, few concave faces
+  tenth    the same with a tenth of the input's vertices wanted, which must be met within 10 %
+  quality  quads and distance at five published settings
+  dirty    every broken file: a sound result, or a refusal that says why; never a crash
+
+Prints a table; returns 0 where all is well, 1 where a model fails, 77 where models or meter are
+missing (with environment CI that is a failure too).
+"""
+
+import argparse
+import concurrent.futures
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+
+import models
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+CATEGORIES = ("scan", "cad", "genus", "open")
+SKIPPED = 77
+PARALLEL = 2
+
+MOST_CONCAVE_PERCENT = 0.5
+COUNT_TOLERANCE = 0.1
+TIME_LIMIT = {"default": 300, "tenth": 300, "quality": 300, "dirty": 60}
+
+# Model, wanted vertices, RMS distance as a share of the diagonal that Instant Meshes reaches there
+# without crease mode, by the published comparison of peers.
+QUALITY = [
+    ("cad/rocker-arm.obj", 2500, 10.69e-4),
+    ("cad/rocker-arm.obj", 5000, 5.98e-4),
+    ("cad/fandisk.obj", 2500, 7.92e-4),
+    ("scan/stanford-bunny.obj", 5000, 6.48e-4),
+    ("scan/igea.ply", 5000, 6.17e-4),
+]
+LEAST_QUAD_PERCENT = 85
+LEAST_QUAD_PERCENT_BY_AREA = 75
+
+# Exit codes of strake that refuse an input: bad file, and nothing that can be used.
+REFUSALS = (3, 4)
+
+
+class Case:
+    """One run of strake, and what is wrong with its result."""
+
+    def __init__(self, path, wanted=0, rms_limit=None, model=None):
+        self.path = path
+        self.wanted = wanted
+        self.rms_limit = rms_limit
+        self.model = model
+        self.exit = None
+        self.seconds = 0.0
+        self.measures = None
+        self.message = ""
+        self.faults = []
+
+    @property
+    def name(self):
+        return self.path.name
+
+    def row(self):
+        cells = [f"{self.name:38s} {self.exit!s:>4} {self.seconds:6.1f} {self.wanted or '-':>6}"]
+        if self.measures:
+            c = self.measures["candidate"]
+            rms = self.measures.get("distance", {}).get("rms")
+            cells.append(f"{c['vertices']:6d} {c['quad_percent'] or 0:5.1f} "
+                         f"{c['quad_percent_by_area'] or 0:5.1f} "
+                         f"{'-' if rms is None else format(1e4 * rms, '.2f'):>6} "
+                         f"{concave_percent(c):5.2f}")
+        else:
+            cells.append(f"{'-':>6} {'-':>5} {'-':>5} {'-':>6} {'-':>5}")
+        cells.append("FAILED: " + "; ".join(self.faults) if self.faults else "ok")
+        return " ".join(cells)
+
+
+HEADER = (f"{'model':38s} {'exit':>4} {'sec':>6} {'wanted':>6} {'V':>6} {'quad%':>5} {'area%':>5} "
+          f"{'rms':>6} {'conc%':>5} verdict      (rms in 1e-4 of the diagonal)")
+
+
+def concave_percent(candidate):
+    return 100 * candidate["concave_faces"] / max(1, candidate["faces"])
+
+
+class Checker:
+    def __init__(self, suite, strake, meter, scratch):
+        self.suite = suite
+        self.strake = strake
+        self.meter = meter
+        self.scratch = scratch
+
+    def check(self, case):
+        output = self.scratch / f"{case.path.stem}-{case.path.suffix[1:]}-{case.wanted}.obj"
+        self.remesh(case, output)
+        if case.exit == 0 and not output.exists():
+            case.faults.append("exit 0 without a result")
+        elif case.exit == 0:
+            self.measure(case, output)
+            self.judge(case)
+        elif self.suite == "dirty" and case.exit in REFUSALS:
+            if not case.message:
+                case.faults.append("refused without a message")
+            if output.exists():
+                case.faults.append("refused, but wrote a result")
+        elif case.exit is not None:
+            case.faults.append(f"exit {case.exit}: {case.message[-300:]}")
+        return case
+
+    def remesh(self, case, output):
+        command = [self.strake, "remesh", case.path, "-o", output, "--quiet", "--no-evaluate",
+                   "--threads", "1"]
+        if case.wanted:
+            command += ["--vertices", str(case.wanted)]
+        started = time.monotonic()
+        try:
+            run = subprocess.run(command, capture_output=True, text=True, errors="replace",
+                                 timeout=TIME_LIMIT[self.suite], check=False)
+            case.exit = run.returncode
+            case.message = " ".join(run.stderr.split())
+        except subprocess.TimeoutExpired:
+            case.faults.append(f"longer than {TIME_LIMIT[self.suite]} s")
+        case.seconds = time.monotonic() - started
+
+    def measure(self, case, output):
+        if self.suite == "dirty":  # a broken reference is no measure
+            arguments = [output, output, "--no-distance"]
+        else:
+            samples = "200000" if self.suite == "quality" else "1000"
+            arguments = [models.reference(case.path, self.scratch), output, "--samples", samples]
+        run = subprocess.run([self.meter, *arguments, "--threads", "1"], capture_output=True,
+                             text=True, check=False)
+        if run.returncode != 0:
+            case.faults.append("the meter cannot read the result: " + run.stderr.strip()[-200:])
+            return
+        case.measures = json.loads(run.stdout)
+
+    def judge(self, case):
+        if not case.measures:
+            return
+        result = case.measures["candidate"]
+        for key in ("manifold", "consistently_oriented"):
+            if not result[key]:
+                case.faults.append("not " + key.replace("_", " "))
+        for key in ("bad_faces_in_file", "repeated_index_faces", "unused_vertices"):
+            if result[key]:
+                case.faults.append(f"{result[key]} {key.replace('_', ' ')}")
+        if result["face_sides"]["more"]:
+            case.faults.append(f"{result['face_sides']['more']} faces with more than 5 sides")
+        if not result["faces"]:
+            case.faults.append("no faces")
+        if self.suite == "dirty":
+            return
+        self.judge_against_input(case, result)
+        if self.suite == "quality":
+            self.judge_quality(case, result)
+
+    @staticmethod
+    def judge_against_input(case, result):
+        source = case.measures["reference"]
+        for key in ("components", "boundary_loops", "genus"):
+            if result[key] != source[key]:
+                case.faults.append(f"{key.replace('_', ' ')} {result[key]} instead of {source[key]}")
+        if case.model:  # the meter must have seen the surface that the table describes
+            table = (case.model.components, case.model.loops, case.model.genus)
+            seen = (source["components"], source["boundary_loops"], source["genus"])
+            if table != seen:
+                case.faults.append(f"the input has topology {seen}, MANIFEST.md says {table}")
+        concave = concave_percent(result)
+        if concave > MOST_CONCAVE_PERCENT:
+            case.faults.append(f"{concave:.2f} % of the faces are concave")
+        if case.wanted and abs(result["vertices"] - case.wanted) > COUNT_TOLERANCE * case.wanted:
+            case.faults.append(f"{result['vertices']} vertices instead of {case.wanted}")
+
+    @staticmethod
+    def judge_quality(case, result):
+        rms = case.measures["distance"]["rms"]
+        if rms > case.rms_limit:
+            case.faults.append(f"RMS distance {1e4 * rms:.2f}e-4, not above "
+                               f"{1e4 * case.rms_limit:.2f}e-4 is wanted")
+        for key, least in (("quad_percent", LEAST_QUAD_PERCENT),
+                           ("quad_percent_by_area", LEAST_QUAD_PERCENT_BY_AREA)):
+            if result[key] < least:
+                case.faults.append(f"{key.replace('_', ' ')} {result[key]:.1f}, at least {least} "
+                                   "is wanted")
+
+
+def cases_of(suite, folder):
+    if suite == "quality":
+        return [Case(folder / name, wanted, limit) for name, wanted, limit in QUALITY]
+    if suite == "dirty":
+        return [Case(path) for path in sorted((folder / "dirty").iterdir()) if path.is_file()]
+    sound = [model for model in models.read_manifest(folder) if model.category in CATEGORIES]
+    return [Case(model.path, model.vertices // 10 if suite == "tenth" else 0, model=model)
+            for model in sound]
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("suite", choices=TIME_LIMIT)
+    parser.add_argument("names", nargs="*", help="only models whose file name contains one of these")
+    parser.add_argument("--strake", required=True, help="the program to test")
+    parser.add_argument("--models", default=os.environ.get("STRAKE_MODELS"),
+                        help="default: $STRAKE_MODELS, else ../shared/models beside the source tree")
+    parser.add_argument("--meter", default=os.environ.get("STRAKE_METER"),
+                        help="default: $STRAKE_METER, else what scripts/build_meter builds")
+    return parser.parse_args()
+
+
+def missing(what):
+    print(f"check_corpus: {what}", file=sys.stderr)
+    return 1 if os.environ.get("CI") else SKIPPED
+
+
+def main():
+    arguments = parse_arguments()
+    folder = pathlib.Path(arguments.models or ROOT.parent / "shared" / "models")
+    meter = pathlib.Path(arguments.meter or ROOT / "build" / "meter" / "meshmeter")
+    if not (folder / "MANIFEST.md").exists():
+        return missing("there are no test models: set STRAKE_MODELS to their folder")
+    if not meter.exists():
+        return missing("there is no meter: run scripts/build_meter, or set STRAKE_METER to it")
+
+    cases = cases_of(arguments.suite, folder)
+    if arguments.names:
+        cases = [case for case in cases if any(name in case.name for name in arguments.names)]
+    if not cases:
+        print("check_corpus: error: no model of that name", file=sys.stderr)
+        return 2
+    print(HEADER)
+    started = time.monotonic()
+    with tempfile.TemporaryDirectory(prefix="strake-corpus-") as scratch:
+        checker = Checker(arguments.suite, arguments.strake, meter, pathlib.Path(scratch))
+        with concurrent.futures.ThreadPoolExecutor(PARALLEL) as pool:
+            for case in pool.map(checker.check, cases):
+                print(case.row(), flush=True)
+    failed = [case for case in cases if case.faults]
+    print(f"{arguments.suite}: {len(cases)} cases, {len(failed)} failed, "
+          f"{time.monotonic() - started:.0f} s")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
