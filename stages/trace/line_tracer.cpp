@@ -62,7 +62,7 @@ LineTracer::LineTracer(const TraceDomain& domain, const std::vector<std::uint8_t
       barriers_(barriers),
       settings_(settings),
       proximity_(domain.mesh, barriers),
-      covered_(domain.mesh.wedge_count(), 0) {}
+      coverage_(domain) {}
 
 LineTracer::Head LineTracer::start_head(const Seed& seed, bool forward) const {
   const TriMesh& mesh = domain_.mesh;
@@ -128,17 +128,9 @@ bool LineTracer::fits(const Head& head) {
 }
 
 void LineTracer::cover(const Head& head, const LocalSpacing& spacing) {
-  const Vec3 point = world_point(domain_, head.context, head.point);
-  const Vec3 direction = world_direction(domain_, head.context, head.heading);
-  proximity_.for_corners_within(
-      point, settings_.cover_fraction * spacing.to_neighbours, [&](Index corner) {
-        const Index w = domain_.mesh.wedge_of(corner);
-        const Vec3& arm = domain_.field.cross[w];
-        const Vec3 flat = direction - domain_.field.normal[w] * domain_.field.normal[w].dot(direction);
-        const double c = arm.dot(flat);
-        const int bit = c * c >= 0.5 * flat.squaredNorm() ? 1 : 2;
-        covered_[w] = static_cast<std::uint8_t>(covered_[w] | bit);
-      });
+  coverage_.mark(proximity_.cell(), world_point(domain_, head.context, head.point),
+                 world_direction(domain_, head.context, head.heading),
+                 settings_.cover_fraction * spacing.to_neighbours);
 }
 
 void LineTracer::spawn(Head& head, const LocalSpacing& spacing, double step,

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "stages/trace/coverage.h"
 #include "stages/trace/proximity.h"
 #include "stages/trace/sampling.h"
 
@@ -44,9 +45,7 @@ class LineTracer {
   /// \return false where the seed is too close to a line of its direction, or the line too short
   bool trace(const Seed& seed, Index line, TracedLine& result, std::vector<Seed>& spawned);
 
-  /// Whether some line along (arm 0) or across (arm 1) the cross passes near wedge w.
-  [[nodiscard]] bool is_covered(Index w, int arm) const { return (covered_[w] >> arm & 1) != 0; }
-
+  [[nodiscard]] const Coverage& coverage() const { return coverage_; }
   [[nodiscard]] std::uint64_t query_count() const { return proximity_.query_count(); }
 
  private:
@@ -72,7 +71,7 @@ class LineTracer {
   const std::vector<std::uint8_t>& barriers_;
   TracerSettings settings_;
   ProximityIndex proximity_;
-  std::vector<std::uint8_t> covered_;  ///< [W] bit 0: along the cross, bit 1: across it
+  Coverage coverage_;
 };
 
 }  // namespace strake

@@ -57,16 +57,8 @@ class ProximityIndex {
   /// Whether `face` was in the cell of the last query.
   [[nodiscard]] bool in_cell(Index face) const { return stamp_[face] == current_; }
 
-  /// Corners (half-edges) of the faces of the last query's cell that lie within `distance` of its point.
-  template <class Visit>
-  void for_corners_within(const Vec3& point, double distance, Visit&& visit) const {
-    const double limit = distance * distance;
-    for (const Index f : cell_) {
-      for (int i = 0; i < 3; ++i) {
-        if ((mesh_.positions[mesh_.faces[f][i]] - point).squaredNorm() <= limit) visit(3 * f + i);
-      }
-    }
-  }
+  /// The faces of the last query's cell.
+  [[nodiscard]] const std::vector<Index>& cell() const { return cell_; }
 
   [[nodiscard]] std::uint64_t query_count() const { return query_count_; }
 

@@ -103,72 +103,28 @@ class LineCollector {
       if (!tracer_.trace(seed, lines_.line_count(), line, spawned)) continue;
       add(line);
       queue.insert(queue.end(), spawned.begin(), spawned.end());
-      if (lines_.line_count() % 64 == 0) observer_.report("tracing lines", covered_share());
+      if (lines_.line_count() % 64 == 0) observer_.report("tracing lines", tracer_.coverage().covered_share());
     }
   }
 
-  /// Seeds wherever a direction of the cross has no line within reach, until none is left.
+  /// Seeds wherever a direction of the cross has no line within reach.
   void saturate() {
-    const TriMesh& mesh = domain_.mesh;
-    for (Index f = 0; f < mesh.face_count(); ++f) {
-      for (int i = 0; i < 3; ++i) {
-        const Index w = mesh.face_wedges[f][i];
-        for (int arm = 0; arm < 2; ++arm) {
-          if (tracer_.is_covered(w, arm)) continue;
-          Vec3 barycentric = Vec3::Constant(0.1);
-          barycentric[i] = 0.8;
-          grow({arm_seed(f, barycentric, w, arm)});
-        }
-      }
-      saturate_large_face(f);
-      if (f % 4096 == 0) observer_.report("filling gaps", double(f) / mesh.face_count());
+    const Index faces = domain_.mesh.face_count();
+    for (Index f = 0; f < faces; ++f) {
+      tracer_.coverage().for_gaps(f, [&](const Coverage::Gap& gap) {
+        Seed seed;
+        seed.face = gap.face;
+        seed.barycentric = gap.barycentric;
+        seed.direction = gap.direction;
+        grow({seed});
+      });
+      if (f % 1024 == 0) observer_.report("filling gaps", double(f) / faces);
     }
   }
 
   [[nodiscard]] std::size_t tried() const { return tried_; }
 
  private:
-  Seed arm_seed(Index f, const Vec3& barycentric, Index w, int arm) const {
-    Seed seed;
-    seed.face = f;
-    seed.barycentric = barycentric;
-    const Vec3& c = domain_.field.cross[w];
-    seed.direction = arm == 0 ? c : Vec3(domain_.field.normal[w].cross(c));
-    return seed;
-  }
-
-  /// Vertices do not sample faces that are larger than the distance of lines: try a grid inside.
-  void saturate_large_face(Index f) {
-    const TriMesh& mesh = domain_.mesh;
-    double longest = 0;
-    double spacing = std::numeric_limits<double>::infinity();
-    for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-      longest = std::max(longest, (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).norm());
-      const Index w = mesh.wedge_of(h);
-      spacing = std::min({spacing, domain_.spacing.along[w], domain_.spacing.across[w]});
-    }
-    if (longest < spacing) return;
-    const int steps = static_cast<int>(std::min(200.0, std::ceil(1.5 * longest / spacing)));
-    for (int i = 1; i < steps; ++i) {
-      for (int j = 1; i + j < steps; ++j) {
-        const Vec3 b(double(i) / steps, double(j) / steps, double(steps - i - j) / steps);
-        Index corner = 0;
-        b.maxCoeff(&corner);
-        for (int arm = 0; arm < 2; ++arm) grow({arm_seed(f, b, mesh.face_wedges[f][corner], arm)});
-      }
-    }
-  }
-
-  double covered_share() const {
-    Index covered = 0;
-    const Index step = std::max<Index>(1, domain_.mesh.wedge_count() / 1000);
-    Index looked = 0;
-    for (Index w = 0; w < domain_.mesh.wedge_count(); w += step, looked += 2) {
-      covered += tracer_.is_covered(w, 0) + tracer_.is_covered(w, 1);
-    }
-    return looked > 0 ? double(covered) / looked : 1;
-  }
-
   const TraceDomain& domain_;
   LineTracer tracer_;
   Observer& observer_;

@@ -1,0 +1,130 @@
+#include "stages/trace/coverage.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace strake {
+namespace {
+
+/// Distance of samples inside large faces, in line distances.
+constexpr double kSampleDistance = 0.8;
+constexpr int kMostSamplesPerFace = 20000;
+
+/// Bit of the arm of a cross that a direction follows.
+std::uint8_t arm_bit(const Vec3& arm, const Vec3& flat) {
+  const double c = arm.dot(flat);
+  return c * c >= 0.5 * flat.squaredNorm() ? 1 : 2;
+}
+
+}  // namespace
+
+Coverage::Coverage(const TraceDomain& domain)
+    : domain_(domain), wedge_marks_(domain.mesh.wedge_count(), 0) {
+  offsets_.reserve(domain.mesh.face_count() + 1);
+  offsets_.push_back(0);
+  for (Index f = 0; f < domain.mesh.face_count(); ++f) {
+    sample_face(f);
+    offsets_.push_back(static_cast<Index>(points_.size()));
+  }
+}
+
+/// Rows of samples parallel to the longest edge, each a line distance from the next.
+void Coverage::sample_face(Index face) {
+  const TriMesh& mesh = domain_.mesh;
+  int base = 0;
+  double longest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    const Index h = 3 * face + i;
+    const double length = (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).norm();
+    if (length > longest) {
+      longest = length;
+      base = i;
+    }
+    const Index w = mesh.face_wedges[face][i];
+    least = std::min({least, domain_.spacing.along[w], domain_.spacing.across[w]});
+  }
+  if (longest < 1.5 * least) return;
+  const FieldContext context = field_context(domain_, face);
+  const Vec2& a = context.chart.corner[base];
+  const Vec2& b = context.chart.corner[(base + 1) % 3];
+  const Vec2& top = context.chart.corner[(base + 2) % 3];
+  const Vec2 along = (b - a) / longest;
+  const double height = along.x() * (top - a).y() - along.y() * (top - a).x();
+  const auto distance_at = [&](const Vec2& p) {
+    const LocalSpacing local = spacing_at(domain_, context, p, along);
+    return kSampleDistance * std::min(local.along, local.to_neighbours);
+  };
+  int budget = kMostSamplesPerFace;
+  double up = std::min(0.5 * height, 0.5 * distance_at(0.5 * (a + b)));
+  while (up < height && budget > 0) {
+    const double share = up / height;
+    const Vec2 start = a + share * (top - a);
+    const double width = (1 - share) * longest;
+    double next_row = std::numeric_limits<double>::infinity();
+    for (double x = std::min(0.5 * width, 0.5 * distance_at(start)); x < width && budget > 0;) {
+      const Vec2 p = start + x * along;
+      const double step = distance_at(p);
+      next_row = std::min(next_row, step);
+      Point sample;
+      sample.barycentric = context.chart.barycentric(p).cwiseMax(0.0);
+      sample.barycentric /= sample.barycentric.sum();
+      sample.position = world_point(domain_, context, p);
+      const Vec2 arm = field_direction(domain_, context, p, along, LineFamily::minimum);
+      sample.arm = world_direction(domain_, context, arm).normalized();
+      points_.push_back(sample);
+      x += step;
+      --budget;
+    }
+    up += next_row;
+  }
+}
+
+void Coverage::mark(const std::vector<Index>& faces, const Vec3& point, const Vec3& direction,
+                    double distance) {
+  const TriMesh& mesh = domain_.mesh;
+  const double limit = distance * distance;
+  for (const Index f : faces) {
+    for (int i = 0; i < 3; ++i) {
+      if ((mesh.positions[mesh.faces[f][i]] - point).squaredNorm() > limit) continue;
+      const Index w = mesh.face_wedges[f][i];
+      const Vec3& normal = domain_.field.normal[w];
+      const Vec3 flat = direction - normal * normal.dot(direction);
+      wedge_marks_[w] |= arm_bit(domain_.field.cross[w], flat);
+    }
+    for (Index p = offsets_[f]; p < offsets_[f + 1]; ++p) {
+      if ((points_[p].position - point).squaredNorm() > limit) continue;
+      points_[p].marks |= arm_bit(points_[p].arm, direction);
+    }
+  }
+}
+
+Coverage::Gap Coverage::corner_gap(Index face, int corner, int arm) const {
+  const Index w = domain_.mesh.face_wedges[face][corner];
+  const Vec3& cross = domain_.field.cross[w];
+  Gap gap;
+  gap.face = face;
+  gap.barycentric = Vec3::Constant(0.1);  // inside the face, where a line can start
+  gap.barycentric[corner] = 0.8;
+  gap.direction = arm == 0 ? cross : Vec3(domain_.field.normal[w].cross(cross));
+  return gap;
+}
+
+Coverage::Gap Coverage::point_gap(Index face, Index point, int arm) const {
+  const Vec3& along = points_[point].arm;
+  return {face, points_[point].barycentric,
+          arm == 0 ? along : Vec3(domain_.face_normals[face].cross(along))};
+}
+
+double Coverage::covered_share() const {
+  const std::size_t step = std::max<std::size_t>(1, wedge_marks_.size() / 1000);
+  Index covered = 0;
+  Index looked = 0;
+  for (std::size_t w = 0; w < wedge_marks_.size(); w += step, looked += 2) {
+    covered += (wedge_marks_[w] & 1) + (wedge_marks_[w] >> 1 & 1);
+  }
+  return looked > 0 ? double(covered) / looked : 1;
+}
+
+}  // namespace strake
