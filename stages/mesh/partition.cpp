@@ -16,6 +16,7 @@ constexpr double kBulge = 1e-3;
 constexpr int kMoveRounds = 8;
 /// Parts thinner than this, as area over squared perimeter, are as good as degenerate.
 constexpr double kThinnest = 1e-4;
+constexpr std::size_t kLargestScored = 24;
 
 using Polygon = std::vector<Vec3>;
 
@@ -134,6 +135,7 @@ class Partitioner {
       reflex[i] = is_reflex(p, i, n) && (interior_angle(p, i, n) > kMovableAngle || p.size() <= 5);
       any_reflex = any_reflex || reflex[i] != 0;
     }
+    if (p.size() > kLargestScored) return shortest_balanced_diagonal(cell, p);
     for (const bool relaxed : {false, true}) {
       double best = std::numeric_limits<double>::infinity();
       std::pair<std::size_t, std::size_t> choice{0, 0};
@@ -164,6 +166,27 @@ class Partitioner {
       if (!relaxed && static_cast<Index>(p.size()) <= max_sides_ && !any_reflex) return kNone;
     }
     return kNone;
+  }
+
+  /// For cells with too many sides to score all diagonals: the shortest that leaves at least a
+  /// quarter of the sides on each side.
+  Index shortest_balanced_diagonal(const std::vector<Index>& cell, const Polygon& p) {
+    const DartGraph& g = graph_.graph();
+    const std::size_t n = p.size();
+    double best = std::numeric_limits<double>::infinity();
+    std::pair<std::size_t, std::size_t> choice{0, 0};
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t j = i + n / 4; j < n && j - i <= n - n / 4; ++j) {
+        const double length = (p[i] - p[j]).squaredNorm();
+        if (length >= best || g.from(cell[i]) == g.from(cell[j])) continue;
+        if (graph_.find_edge(cell[i], g.from(cell[j])) != kNone) continue;
+        best = length;
+        choice = {i, j};
+      }
+    }
+    if (choice.first == choice.second) return kNone;
+    ++counts_.diagonals;
+    return graph_.connect(cell[choice.first], cell[choice.second]);
   }
 
   /// Cells that touch themselves in a node: a diagonal separates the two visits, between new nodes

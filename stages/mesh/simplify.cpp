@@ -67,6 +67,16 @@ bool try_dissolve(PolygonGraph& graph, Index dart) {
   return true;
 }
 
+bool on_boundary(const PolygonGraph& graph, Index dart) {
+  const DartGraph& g = graph.graph();
+  Index d = dart;
+  do {
+    if (graph.kind(d) == EdgeKind::boundary) return true;
+    d = g.rotate_ccw(d);
+  } while (d != dart);
+  return false;
+}
+
 bool only_one_edge_to(const PolygonGraph& graph, Index dart) {
   const DartGraph& g = graph.graph();
   for (Index d = g.rotate_ccw(dart); d != dart; d = g.rotate_ccw(d)) {
@@ -178,6 +188,11 @@ bool can_contract(const PolygonGraph& graph, Index dart) {
   const Index v = g.to(dart);
   if (u == v || graph.rank(u) > graph.rank(v)) return false;
   if (graph.rank(u) != NodeRank::line && !graph.is_barrier(dart)) return false;
+  // A feature edge between two boundary nodes: contracting it would pinch the surface.
+  if (graph.kind(dart) != EdgeKind::boundary && on_boundary(graph, dart) &&
+      on_boundary(graph, DartGraph::opposite(dart))) {
+    return false;
+  }
   if (!only_one_edge_to(graph, dart) || !only_one_edge_to(graph, DartGraph::opposite(dart))) return false;
   int triangles = 0;
   for (const Index side : {dart, DartGraph::opposite(dart)}) {
