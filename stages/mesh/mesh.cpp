@@ -30,29 +30,29 @@ double local_size(const TriMesh& mesh, const LineSet& lines, const SurfaceNode& 
   return size;
 }
 
-/// Components that the reduced overlay does not represent by cells enough.
-std::vector<char> starved_components(const TriMesh& mesh, const std::vector<Index>& component,
-                                     const Overlay& overlay) {
-  const Index count = *std::max_element(component.begin(), component.end()) + 1;
-  const DartGraph& graph = overlay.graph;
-  std::vector<Index> cells(count, 0);
-  std::vector<char> seen(graph.dart_count(), 0);
-  for (Index d = 0; d < graph.dart_count(); ++d) {
-    if (!graph.is_alive(d) || seen[d] != 0) continue;
-    bool hole = false;
-    for (Index at = d; seen[at] == 0; at = graph.next(at)) {
-      seen[at] = 1;
-      hole = hole || (overlay.kind[DartGraph::edge_of(at)] == EdgeKind::boundary && at % 2 == 1);
-    }
-    if (!hole) ++cells[component[overlay.nodes[graph.from(d)].face]];
+/// Adds the components that have too few cells to be a surface to `starved`; whether there are any.
+bool find_starved(const TriMesh& mesh, const std::vector<Index>& component,
+                  const PolygonGraph& graph, std::vector<char>& starved) {
+  const DartGraph& g = graph.graph();
+  std::vector<Index> cells(starved.size(), 0);
+  std::vector<char> seen(g.dart_count(), 0);
+  for (Index d = 0; d < g.dart_count(); ++d) {
+    if (!g.is_alive(d) || seen[d] != 0) continue;
+    const std::vector<Index> cell = graph.cell(d);
+    for (const Index other : cell) seen[other] = 1;
+    if (cell.size() > 2 && !graph.is_hole(d)) ++cells[component[graph.node(g.from(d)).face]];
   }
-  std::vector<char> open(count, 0);  // one cell is enough for a surface with boundary
+  std::vector<char> open(starved.size(), 0);  // one cell is enough for a surface with boundary
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
     if (mesh.is_boundary(h)) open[component[TriMesh::face_of(h)]] = 1;
   }
-  std::vector<char> starved(count, 0);
-  for (Index c = 0; c < count; ++c) starved[c] = cells[c] < (open[c] != 0 ? 1 : kFewestCells);
-  return starved;
+  bool found = false;
+  for (std::size_t c = 0; c < starved.size(); ++c) {
+    if (starved[c] != 0 || cells[c] >= (open[c] != 0 ? 1 : kFewestCells)) continue;
+    starved[c] = 1;
+    found = true;
+  }
+  return found;
 }
 
 /// Protects the triangle edges of some components from removal.
@@ -141,42 +141,59 @@ void check_result(const TriMesh& mesh, const PolyMesh& quads, Index max_sides, R
   }
 }
 
+/// The cells between the lines as polygons, and what was done to get there.
+struct Cells {
+  PolygonGraph graph;
+  SimplifyCounts simplified;
+  PartitionCounts divided;
+  Index cut_pieces = 0;
+};
+
+Cells form_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions& options,
+                 const std::vector<Index>& component, const std::vector<char>& starved,
+                 Observer& observer) {
+  Overlay overlay = build_overlay(mesh, lines, observer);
+  keep_triangles(component, starved, overlay);
+  observer.report("forming cells", 0.4);
+  const Index cuts = reduce_to_lines(overlay);
+  observer.report("simplifying cells", 0.6);
+  Cells cells{PolygonGraph(mesh, overlay), {}, {}, cuts};
+  cells.simplified = simplify(
+      cells.graph, [&](const SurfaceNode& node) { return local_size(mesh, lines, node); },
+      kShortestEdge);
+  observer.report("dividing cells", 0.8);
+  cells.divided = partition(cells.graph, static_cast<Index>(options.max_sides));
+  return cells;
+}
+
 }  // namespace
 
 MeshResult mesh_lines(const TriMesh& mesh, const LineSet& lines, const MeshOptions& options,
                       Observer& observer) {
-  MeshResult result;
-  Overlay overlay = build_overlay(mesh, lines, observer);
-  observer.report("forming cells", 0.4);
   const std::vector<Index> component = face_components(mesh);
-  Index cuts = reduce_to_lines(overlay);
-  const std::vector<char> starved = starved_components(mesh, component, overlay);
-  const auto starved_count = std::count(starved.begin(), starved.end(), 1);
-  if (starved_count > 0) {
-    overlay = build_overlay(mesh, lines, observer);
-    keep_triangles(component, starved, overlay);
-    cuts = reduce_to_lines(overlay);
-    result.report.warn(std::to_string(starved_count) +
-                       " component(s) are smaller than the line distance and keep their triangles");
+  std::vector<char> starved(*std::max_element(component.begin(), component.end()) + 1, 0);
+  Cells cells = form_cells(mesh, lines, options, component, starved, observer);
+  while (find_starved(mesh, component, cells.graph, starved)) {
+    cells = form_cells(mesh, lines, options, component, starved, observer);
   }
-  observer.report("simplifying cells", 0.6);
-  PolygonGraph graph(mesh, overlay);
-  const SimplifyCounts simplified = simplify(
-      graph, [&](const SurfaceNode& node) { return local_size(mesh, lines, node); }, kShortestEdge);
-  observer.report("dividing cells", 0.8);
-  const PartitionCounts divided = partition(graph, static_cast<Index>(options.max_sides));
-  result.quads = assemble(mesh, graph);
+  MeshResult result;
+  result.quads = assemble(mesh, cells.graph);
 
   Report& report = result.report;
-  report.set("mesh.cut_pieces", static_cast<std::int64_t>(cuts));
-  report.set("mesh.components_kept_as_triangles", static_cast<std::int64_t>(starved_count));
-  report.set("mesh.contracted_edges", static_cast<std::int64_t>(simplified.contracted_edges));
-  report.set("mesh.removed_bigons", static_cast<std::int64_t>(simplified.removed_bigons));
-  report.set("mesh.dissolved_nodes", static_cast<std::int64_t>(simplified.dissolved_nodes));
-  report.set("mesh.divided_edges", static_cast<std::int64_t>(simplified.split_edges));
-  report.set("mesh.diagonals", static_cast<std::int64_t>(divided.diagonals));
-  report.set("mesh.straightened_nodes", static_cast<std::int64_t>(divided.moved_nodes));
-  report.set("mesh.concave_faces_left", static_cast<std::int64_t>(divided.concave_left));
+  const auto kept = std::count(starved.begin(), starved.end(), 1);
+  if (kept > 0) {
+    report.warn(std::to_string(kept) +
+                " component(s) are smaller than the line distance and keep their triangles");
+  }
+  report.set("mesh.cut_pieces", static_cast<std::int64_t>(cells.cut_pieces));
+  report.set("mesh.components_kept_as_triangles", static_cast<std::int64_t>(kept));
+  report.set("mesh.contracted_edges", static_cast<std::int64_t>(cells.simplified.contracted_edges));
+  report.set("mesh.removed_bigons", static_cast<std::int64_t>(cells.simplified.removed_bigons));
+  report.set("mesh.dissolved_nodes", static_cast<std::int64_t>(cells.simplified.dissolved_nodes));
+  report.set("mesh.divided_edges", static_cast<std::int64_t>(cells.simplified.split_edges));
+  report.set("mesh.diagonals", static_cast<std::int64_t>(cells.divided.diagonals));
+  report.set("mesh.straightened_nodes", static_cast<std::int64_t>(cells.divided.moved_nodes));
+  report.set("mesh.concave_faces_left", static_cast<std::int64_t>(cells.divided.concave_left));
   check_result(mesh, result.quads.mesh, static_cast<Index>(options.max_sides), report);
   return result;
 }

@@ -211,8 +211,12 @@ class Partitioner {
       Index b = arc_dart(j, i);
       if (a == kNone) a = graph_.split(cell[i], 0.5);
       if (b == kNone) b = graph_.split(cell[j], 0.5);
-      if (g.from(a) == g.from(b)) a = graph_.split(a, 0.5);
-      if (graph_.find_edge(a, g.from(b)) != kNone) a = graph_.split(a, 0.5);
+      // New nodes have no other edges; the two sides of one edge take a few to come apart.
+      for (bool turn = true; g.from(a) == g.from(b) || graph_.find_edge(a, g.from(b)) != kNone;
+           turn = !turn) {
+        Index& end = turn ? a : b;
+        end = graph_.split(end, 0.5);
+      }
       const Index diagonal = graph_.connect(a, b);
       ++counts_.diagonals;
       stack.push_back(diagonal);

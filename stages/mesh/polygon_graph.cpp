@@ -53,7 +53,7 @@ std::vector<char> kept_nodes(const TriMesh& mesh, const Overlay& overlay) {
 
 }  // namespace
 
-PolygonGraph::PolygonGraph(const TriMesh& mesh, const Overlay& overlay) : mesh_(mesh) {
+PolygonGraph::PolygonGraph(const TriMesh& mesh, const Overlay& overlay) : mesh_(&mesh) {
   const DartGraph& from = overlay.graph;
   const std::vector<char> kept = kept_nodes(mesh, overlay);
   std::vector<Index> node_of(overlay.nodes.size(), kNone);
@@ -196,16 +196,16 @@ SurfaceNode PolygonGraph::between(const SurfaceNode& a, const SurfaceNode& b, do
   // Neighbouring points of a course share a face: one of theirs, or a neighbour of it.
   double best = std::numeric_limits<double>::infinity();
   const auto consider = [&](Index f) {
-    const FaceChart chart = lay_out(mesh_, f);
-    const Vec3& origin = mesh_.positions[mesh_.faces[f][0]];
-    const Vec3 x = (mesh_.positions[mesh_.faces[f][1]] - origin).normalized();
-    const Vec3 side = mesh_.positions[mesh_.faces[f][2]] - origin;
+    const FaceChart chart = lay_out(*mesh_, f);
+    const Vec3& origin = mesh_->positions[mesh_->faces[f][0]];
+    const Vec3 x = (mesh_->positions[mesh_->faces[f][1]] - origin).normalized();
+    const Vec3 side = mesh_->positions[mesh_->faces[f][2]] - origin;
     const Vec3 y = (side - x * x.dot(side)).normalized();
     const Vec3 offset = node.position - origin;
     Vec3 bary = chart.barycentric(Vec2(x.dot(offset), y.dot(offset))).cwiseMax(0.0);
     bary /= bary.sum();
     Vec3 foot = Vec3::Zero();
-    for (int i = 0; i < 3; ++i) foot += bary[i] * mesh_.positions[mesh_.faces[f][i]];
+    for (int i = 0; i < 3; ++i) foot += bary[i] * mesh_->positions[mesh_->faces[f][i]];
     const double distance = (foot - node.position).squaredNorm();
     if (!(distance < best)) return;
     best = distance;
@@ -215,7 +215,7 @@ SurfaceNode PolygonGraph::between(const SurfaceNode& a, const SurfaceNode& b, do
   for (const Index f : {a.face, b.face}) {
     consider(f);
     for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-      if (mesh_.twin[h] != kNone) consider(TriMesh::face_of(mesh_.twin[h]));
+      if (mesh_->twin[h] != kNone) consider(TriMesh::face_of(mesh_->twin[h]));
     }
   }
   if (node.face == kNone) {

@@ -57,7 +57,7 @@ class PolygonGraph {
                  const std::vector<char>& kept, std::vector<Index>& node_of);
   [[nodiscard]] SurfaceNode between(const SurfaceNode& a, const SurfaceNode& b, double share) const;
 
-  const TriMesh& mesh_;
+  const TriMesh* mesh_;  ///< not owned
   DartGraph graph_;
   std::vector<SurfaceNode> nodes_;
   std::vector<NodeRank> rank_;

@@ -216,9 +216,14 @@ bool can_contract(const PolygonGraph& graph, Index dart) {
         std::find(right.begin(), right.end(), d) != right.end()) {
       continue;
     }
-    for (const Index other : graph.cell(d)) {
+    const std::vector<Index> cell = graph.cell(d);
+    for (const Index other : cell) {
       if (g.from(other) == v) return false;
     }
+    // A triangle that would come to lie back to back on another one, as in a tetrahedron.
+    if (cell.size() != 3) continue;
+    const Index across = g.next(DartGraph::opposite(cell[1]));
+    if (g.to(across) == v && g.next(g.next(across)) == DartGraph::opposite(cell[1])) return false;
   }
   return keeps_faces(graph, dart);
 }
