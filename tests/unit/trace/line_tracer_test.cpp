@@ -1,0 +1,124 @@
+#include "stages/trace/line_tracer.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "common/geometry/line_chord.h"
+#include "common/geometry/mesh_measures.h"
+#include "tests/unit/trace/fields.h"
+
+namespace strake {
+namespace {
+
+/// A plane with lines along x and y at constant distances.
+class LinesOnAPlane : public ::testing::Test {
+ protected:
+  LinesOnAPlane() {
+    turn_crosses(field_, 1);  // the arms' names must not matter
+    spacing_.along.assign(mesh_.wedge_count(), kSpacing);
+    spacing_.across.assign(mesh_.wedge_count(), kSpacing);
+    for (Index h = 0; h < mesh_.halfedge_count(); ++h) barriers_.push_back(mesh_.is_boundary(h));
+  }
+
+  Seed seed_at(double x, double y, const Vec3& direction) const {
+    for (Index f = 0; f < mesh_.face_count(); ++f) {
+      const Vec3 b = field_context(domain_, f)
+                         .chart.barycentric(
+                             chart_direction(domain_, field_context(domain_, f),
+                                             Vec3(x, y, 0) - mesh_.positions[mesh_.faces[f][0]]));
+      if (b.minCoeff() >= 0) return {f, b, direction, {}};
+    }
+    throw std::logic_error("no such point");
+  }
+
+  static constexpr double kSpacing = 0.2;
+  TriMesh mesh_ = sample_mesh(SampleKind::plane, 3000, 0.8);
+  PrincipalField field_ = field_along(mesh_, [](const Vec3&) { return Vec3::UnitX(); });
+  Spacing spacing_;
+  TraceDomain domain_{mesh_, field_, spacing_, face_normals(mesh_)};
+  std::vector<std::uint8_t> barriers_;
+};
+
+TEST_F(LinesOnAPlane, AreStraightFromBoundaryToBoundary) {
+  LineTracer tracer(domain_, barriers_, {});
+  TracedLine line;
+  std::vector<Seed> spawned;
+  ASSERT_TRUE(tracer.trace(seed_at(0.13, 0.21, Vec3(0.9, 0.3, 0)), 0, line, spawned));
+  EXPECT_EQ(line.start_reason, LineEnd::boundary);
+  EXPECT_EQ(line.end_reason, LineEnd::boundary);
+  // Crossings within a thousandth of an edge of a vertex go through the vertex.
+  const double tolerance = 2e-3 * 2.0 / std::sqrt(3000.0 / 4);
+  for (std::size_t i = 0; i < line.points.size(); ++i) {
+    const Vec3 p = line_point_position(mesh_, line.points[i]);
+    EXPECT_NEAR(p.y(), 0.21, 20 * tolerance);
+    if (i > 0) {
+      const Vec3 q = line_point_position(mesh_, line.points[i - 1]);
+      EXPECT_GT(p.x(), q.x()) << "forwards all the way";
+      EXPECT_TRUE(
+          is_proper_chord(mesh_, line.chord_face[i - 1], line.points[i - 1], line.points[i]));
+    }
+  }
+  EXPECT_NEAR(line_point_position(mesh_, line.points.front()).x(), -kPlaneHalfSize, 1e-12);
+  EXPECT_NEAR(line_point_position(mesh_, line.points.back()).x(), kPlaneHalfSize, 1e-12);
+}
+
+TEST_F(LinesOnAPlane, SpawnCrossingLinesAtTheirDistance) {
+  LineTracer tracer(domain_, barriers_, {});
+  TracedLine line;
+  std::vector<Seed> spawned;
+  ASSERT_TRUE(tracer.trace(seed_at(0, 0, Vec3::UnitX()), 0, line, spawned));
+  std::vector<double> at;
+  for (const Seed& seed : spawned) {
+    EXPECT_NEAR(std::abs(seed.direction.normalized().y()), 1, 1e-9);
+    Vec3 p = Vec3::Zero();
+    for (int i = 0; i < 3; ++i) {
+      p += seed.barycentric[i] * mesh_.positions[mesh_.faces[seed.face][i]];
+    }
+    at.push_back(p.x());
+  }
+  std::sort(at.begin(), at.end());
+  ASSERT_GT(at.size(), 6);
+  const double step = kSpacing / 4;  // seeds lie at ends of integration steps
+  for (const double x : at) {
+    EXPECT_NEAR(x / kSpacing, std::round(x / kSpacing), step / kSpacing + 1e-9);
+  }
+  // One per distance, from the seed to the boundary on both sides.
+  EXPECT_NEAR(at.front(), -kPlaneHalfSize, 1.3 * kSpacing);
+  EXPECT_NEAR(at.back(), kPlaneHalfSize, 1.3 * kSpacing);
+}
+
+TEST_F(LinesOnAPlane, KeepTheirDistanceFromEachOther) {
+  const TracerSettings settings;
+  LineTracer tracer(domain_, barriers_, settings);
+  std::vector<Seed> spawned;
+  const auto traces = [&](double x, double y, const Vec3& direction) {
+    TracedLine line;
+    static Index next = 0;
+    return tracer.trace(seed_at(x, y, direction), next++, line, spawned);
+  };
+  const Vec3 x = Vec3::UnitX();
+  EXPECT_TRUE(traces(0, 0.05, x));
+  EXPECT_FALSE(traces(0.3, 0.05, -x)) << "there is one already";
+  EXPECT_FALSE(traces(0.3, 0.05 + 0.9 * settings.seed_fraction * kSpacing, x)) << "too close";
+  EXPECT_TRUE(traces(0.3, 0.05 + 1.1 * settings.seed_fraction * kSpacing, x));
+  EXPECT_TRUE(traces(0.3, 0.05, Vec3::UnitY())) << "lines across it do not matter";
+  EXPECT_FALSE(traces(0, kPlaneHalfSize - 0.5 * kSpacing, x)) << "the boundary counts as a line";
+  EXPECT_TRUE(traces(0, -kPlaneHalfSize + 1.1 * kSpacing, x));
+}
+
+TEST_F(LinesOnAPlane, LeaveNoTraceWhereTheyAreRefused) {
+  LineTracer tracer(domain_, barriers_, {});
+  std::vector<Seed> spawned;
+  TracedLine first;
+  ASSERT_TRUE(tracer.trace(seed_at(0, 0, Vec3::UnitX()), 0, first, spawned));
+  const std::size_t before = spawned.size();
+  TracedLine refused;
+  ASSERT_FALSE(tracer.trace(seed_at(0.1, 0.02, Vec3::UnitX()), 1, refused, spawned));
+  EXPECT_EQ(spawned.size(), before);
+}
+
+}  // namespace
+}  // namespace strake

@@ -1,0 +1,169 @@
+// What every set of lines keeps to, on smooth, rough and meaningless input.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <random>
+
+#include "common/core/error.h"
+#include "common/geometry/line_chord.h"
+#include "tests/support/chain.h"
+#include "tests/unit/trace/fields.h"
+
+namespace strake {
+namespace {
+
+bool touches(const TriMesh& mesh, const LinePoint& point, const std::function<bool(Index)>& edge) {
+  if (!is_vertex_point(point)) return edge(point.halfedge);
+  const Index v = mesh.from(point.halfedge);
+  for (Index h = mesh.vertex_out[v];;) {
+    if (edge(h) || edge(TriMesh::prev(h))) return true;
+    h = mesh.rotate_ccw(h);
+    if (h == kNone || h == mesh.vertex_out[v]) return false;
+  }
+}
+
+void expect_end(const TriMesh& mesh, const LinePoint& point, LineEnd reason) {
+  const auto on_boundary = [&](Index h) { return mesh.is_boundary(h); };
+  const auto on_barrier = [&](Index h) { return mesh.is_barrier(h); };
+  if (reason == LineEnd::boundary) {
+    EXPECT_TRUE(touches(mesh, point, on_boundary));
+  } else if (reason == LineEnd::feature || reason == LineEnd::node) {
+    EXPECT_TRUE(touches(mesh, point, on_barrier));
+  } else {
+    EXPECT_NE(reason, LineEnd::step_limit);
+  }
+}
+
+/// Checks all that LineSet promises. \return the number of chords through faces
+Index expect_lines_on_surface(const TriMesh& mesh, const LineSet& lines) {
+  const auto points = static_cast<Index>(lines.points.size());
+  EXPECT_EQ(lines.offsets.back(), points);
+  EXPECT_EQ(lines.chord_face.size(), lines.points.size());
+  EXPECT_EQ(lines.chord_family.size(), lines.points.size());
+  EXPECT_EQ(lines.spacing_along_min.size(), mesh.wedge_vertex.size());
+  EXPECT_EQ(lines.spacing_along_max.size(), mesh.wedge_vertex.size());
+  for (const LinePoint& p : lines.points) {
+    EXPECT_TRUE(p.halfedge >= 0 && p.halfedge < mesh.halfedge_count());
+    EXPECT_TRUE(p.lambda >= 0 && p.lambda < 1);
+  }
+  Index chords = 0;
+  for (Index l = 0; l < lines.line_count(); ++l) {
+    const Index first = lines.offsets[l];
+    const Index last = lines.offsets[l + 1];
+    EXPECT_GE(last - first, lines.is_closed(l) ? 3 : 1);
+    EXPECT_TRUE(lines.seed_point[l] >= first && lines.seed_point[l] < last);
+    EXPECT_EQ(lines.is_closed(l), lines.start_reason[l] == LineEnd::closed);
+    const bool along_edges =
+        lines.family[l] == LineFamily::boundary || lines.family[l] == LineFamily::feature;
+    for (Index p = first; p < last; ++p) {
+      const Index q = p + 1 < last ? p + 1 : first;
+      const Index face = lines.chord_face[p];
+      if (along_edges) {
+        EXPECT_EQ(face, kNone);
+        EXPECT_TRUE(is_vertex_point(lines.points[p]));
+        EXPECT_TRUE(mesh.is_barrier(lines.points[p].halfedge));
+        if (p + 1 < last || lines.is_closed(l)) {
+          EXPECT_EQ(mesh.to(lines.points[p].halfedge), mesh.from(lines.points[q].halfedge));
+        }
+      } else if (p + 1 < last || lines.is_closed(l)) {
+        EXPECT_NE(face, kNone);
+        if (face == kNone) continue;
+        EXPECT_TRUE(is_proper_chord(mesh, face, lines.points[p], lines.points[q]));
+        ++chords;
+      } else {
+        EXPECT_EQ(face, kNone);
+      }
+    }
+    if (!along_edges && !lines.is_closed(l)) {
+      expect_end(mesh, lines.points[first], lines.start_reason[l]);
+      expect_end(mesh, lines.points[last - 1], lines.end_reason[l]);
+    }
+  }
+  return chords;
+}
+
+class TraceSamples : public ::testing::TestWithParam<SampleKind> {};
+
+INSTANTIATE_TEST_SUITE_P(
+    Samples, TraceSamples,
+    ::testing::Values(SampleKind::plane, SampleKind::sphere, SampleKind::cylinder,
+                      SampleKind::open_cylinder, SampleKind::torus, SampleKind::ellipsoid,
+                      SampleKind::hyperboloid, SampleKind::saddle, SampleKind::part),
+    [](const auto& test) { return sample_names()[static_cast<std::size_t>(test.param)]; });
+
+TEST_P(TraceSamples, LinesKeepToTheSurfaceOnRoughTriangles) {
+  SampleOptions sample;
+  sample.faces = 8000;
+  if (GetParam() != SampleKind::part) sample.jitter = 1;
+  const support::Prepared prepared = support::prepare(make_sample(GetParam(), sample));
+  for (const std::int64_t vertices : {200, 2000}) {
+    TraceOptions options;
+    options.vertices = vertices;
+    const LineSet lines = support::trace(prepared, options);
+    EXPECT_GT(expect_lines_on_surface(prepared.mesh, lines), 100);
+  }
+}
+
+TEST_P(TraceSamples, LinesKeepToTheSurfaceWithThePapersField) {
+  SampleOptions sample;
+  sample.faces = 8000;
+  SmoothOptions smooth;
+  smooth.extension = "paper";
+  const support::Prepared prepared = support::prepare(make_sample(GetParam(), sample), {}, smooth);
+  EXPECT_GT(expect_lines_on_surface(prepared.mesh, support::trace(prepared)), 100);
+}
+
+TEST(Trace, EndsAndKeepsToTheSurfaceInAMeaninglessField) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  for (const SampleKind kind : {SampleKind::torus, SampleKind::saddle}) {
+    for (const bool extended : {true, false}) {
+      support::Prepared prepared;
+      prepared.mesh = sample_mesh(kind, 1000, 1);
+      prepared.field = field_along(prepared.mesh, [&](const Vec3&) {
+        return Vec3(normal(random), normal(random), normal(random));
+      });
+      prepared.field.cross_extended = extended;
+      for (std::size_t w = 0; w < prepared.field.k_max.size(); ++w) {
+        prepared.field.k_max[w] = normal(random);
+        prepared.field.k_min[w] = 0.5 * prepared.field.k_max[w] * std::sin(normal(random));
+      }
+      for (double& c : prepared.field.face_confidence) c = random() % 2 == 0 ? 0.2 : 1.0;
+      TraceOptions options;
+      options.vertices = 400;
+      expect_lines_on_surface(prepared.mesh, support::trace(prepared, options));
+    }
+  }
+}
+
+/// A square whose triangles are needles: thousands of times longer than wide.
+TEST(Trace, EndsOnNeedles) {
+  constexpr Index kNeedles = 300;
+  PolyMesh soup;
+  for (Index i = 0; i <= kNeedles; ++i) {
+    for (const double y : {0.0, 1.0}) soup.positions.emplace_back(1e-3 * i / kNeedles, y, 0);
+  }
+  soup.positions.emplace_back(0.5, 0, 0);
+  soup.positions.emplace_back(0.5, 1, 0);
+  for (Index i = 0; i <= kNeedles; ++i) {
+    const Index v = 2 * i;
+    soup.add_face(std::array<Index, 3>{v, v + 2, v + 3});
+    soup.add_face(std::array<Index, 3>{v, v + 3, v + 1});
+  }
+  const support::Prepared prepared = support::prepare(soup);
+  expect_lines_on_surface(prepared.mesh, support::trace(prepared));
+}
+
+TEST(Trace, RefusesTwoGoalsAtOnce) {
+  support::Prepared prepared;
+  prepared.mesh = sample_mesh(SampleKind::plane, 500);
+  prepared.field = field_along(prepared.mesh, [](const Vec3&) { return Vec3::UnitX(); });
+  TraceOptions options;
+  options.vertices = 100;
+  options.tolerance = percent(0.1);
+  EXPECT_THROW(support::trace(prepared, options), UsageError);
+}
+
+}  // namespace
+}  // namespace strake
