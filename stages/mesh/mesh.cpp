@@ -193,7 +193,7 @@ MeshResult mesh_lines(const TriMesh& mesh, const LineSet& lines, const MeshOptio
   report.set("mesh.divided_edges", static_cast<std::int64_t>(cells.simplified.split_edges));
   report.set("mesh.diagonals", static_cast<std::int64_t>(cells.divided.diagonals));
   report.set("mesh.straightened_nodes", static_cast<std::int64_t>(cells.divided.moved_nodes));
-  report.set("mesh.concave_faces_left", static_cast<std::int64_t>(cells.divided.concave_left));
+  report.set("mesh.centred_faces", static_cast<std::int64_t>(cells.divided.centred_faces));
   check_result(mesh, result.quads.mesh, static_cast<Index>(options.max_sides), report);
   return result;
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/geometry/frames.h"
+
 namespace strake {
 namespace {
 
@@ -42,6 +44,49 @@ bool is_reflex(const Polygon& p, std::size_t i, const Vec3& n) {
   const Vec3 b = p[(i + size - 1) % size] - p[i];
   return a.cross(b).dot(n) < -1e-10 * a.norm() * b.norm();
 }
+
+double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
+  return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
+}
+
+/// A polygon seen along its normal, to tell which diagonals run inside it.
+class FlatPolygon {
+ public:
+  FlatPolygon(const Polygon& p, const Vec3& n) {
+    const TangentFrame frame = tangent_frame(n);
+    for (const Vec3& v : p) points_.push_back(frame.tangent_from_world(v));
+  }
+
+  /// Whether the diagonal leaves both corners into the polygon and crosses no edge.
+  [[nodiscard]] bool contains(std::size_t i, std::size_t j) const {
+    if (!leaves_inwards(i, j) || !leaves_inwards(j, i)) return false;
+    const std::size_t n = points_.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t l = (k + 1) % n;
+      if (k == i || k == j || l == i || l == j) continue;
+      const Vec2& a = points_[i];
+      const Vec2& b = points_[j];
+      if (turn(a, b, points_[k]) * turn(a, b, points_[l]) <= 0 &&
+          turn(points_[k], points_[l], a) * turn(points_[k], points_[l], b) <= 0) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+ private:
+  [[nodiscard]] bool leaves_inwards(std::size_t i, std::size_t j) const {
+    const std::size_t n = points_.size();
+    const Vec2& before = points_[(i + n - 1) % n];
+    const Vec2& after = points_[(i + 1) % n];
+    const bool left_of_after = turn(points_[i], after, points_[j]) > 0;
+    const bool right_of_before = turn(points_[i], before, points_[j]) < 0;
+    const bool convex = turn(before, points_[i], after) >= 0;
+    return convex ? left_of_after && right_of_before : left_of_after || right_of_before;
+  }
+
+  std::vector<Vec2> points_;
+};
 
 /// Penalty of a part: squared deviation of its corners from right angles, the worse the thinner;
 /// infinite where it is turned over or has no area.
@@ -115,7 +160,7 @@ class Partitioner {
       if (cell.size() < 4 || !needs(cell)) continue;
       const Index diagonal = best_diagonal(cell);
       if (diagonal == kNone) {
-        ++counts_.concave_left;
+        fan_out(cell);
         continue;
       }
       stack.push_back(diagonal);
@@ -135,7 +180,8 @@ class Partitioner {
       reflex[i] = is_reflex(p, i, n) && (interior_angle(p, i, n) > kMovableAngle || p.size() <= 5);
       any_reflex = any_reflex || reflex[i] != 0;
     }
-    if (p.size() > kLargestScored) return shortest_balanced_diagonal(cell, p);
+    const FlatPolygon flat(p, n);
+    if (p.size() > kLargestScored) return shortest_balanced_diagonal(cell, p, flat);
     for (const bool relaxed : {false, true}) {
       double best = std::numeric_limits<double>::infinity();
       std::pair<std::size_t, std::size_t> choice{0, 0};
@@ -144,6 +190,7 @@ class Partitioner {
           if (i == 0 && j + 1 == p.size()) continue;
           if (!relaxed && any_reflex && reflex[i] == 0 && reflex[j] == 0) continue;
           if (g.from(cell[i]) == g.from(cell[j])) continue;
+          if (!relaxed && !flat.contains(i, j)) continue;
           if (graph_.find_edge(cell[i], g.from(cell[j])) != kNone) continue;
           Polygon one(p.begin() + static_cast<std::ptrdiff_t>(i), p.begin() + static_cast<std::ptrdiff_t>(j) + 1);
           Polygon two(p.begin() + static_cast<std::ptrdiff_t>(j), p.end());
@@ -153,6 +200,7 @@ class Partitioner {
             // Any division is better than none where a face has too many sides.
             score = 1e6 + (p[i] - p[j]).norm();
           }
+          if (!flat.contains(i, j)) score += 1e3;
           if (score < best) {
             best = score;
             choice = {i, j};
@@ -168,25 +216,50 @@ class Partitioner {
     return kNone;
   }
 
+  /// Divides a cell from a new node in its middle, where all its diagonals are edges already.
+  void fan_out(const std::vector<Index>& cell) {
+    Vec3 middle = Vec3::Zero();
+    for (const Vec3& v : polygon(cell)) middle += v / static_cast<double>(cell.size());
+    const Index spoke = graph_.connect(cell[0], cell[2]);
+    const Index half = graph_.split(spoke, 0.5);
+    const Index node = graph_.graph().from(half);
+    graph_.move(node, middle);
+    counts_.diagonals += 2;
+    // The node's corner in the cell before a dart is the dart that leaves the node there.
+    for (std::size_t i = 1; i < cell.size(); ++i) {
+      if (i == 2) continue;
+      Index corner = graph_.graph().next(cell[i]);
+      while (graph_.graph().from(corner) != node) corner = graph_.graph().next(corner);
+      graph_.connect(corner, cell[i]);
+      ++counts_.diagonals;
+    }
+    ++counts_.centred_faces;
+  }
+
   /// For cells with too many sides to score all diagonals: the shortest that leaves at least a
   /// quarter of the sides on each side.
-  Index shortest_balanced_diagonal(const std::vector<Index>& cell, const Polygon& p) {
+  Index shortest_balanced_diagonal(const std::vector<Index>& cell, const Polygon& p,
+                                   const FlatPolygon& flat) {
     const DartGraph& g = graph_.graph();
     const std::size_t n = p.size();
-    double best = std::numeric_limits<double>::infinity();
-    std::pair<std::size_t, std::size_t> choice{0, 0};
-    for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t j = i + n / 4; j < n && j - i <= n - n / 4; ++j) {
-        const double length = (p[i] - p[j]).squaredNorm();
-        if (length >= best || g.from(cell[i]) == g.from(cell[j])) continue;
-        if (graph_.find_edge(cell[i], g.from(cell[j])) != kNone) continue;
-        best = length;
-        choice = {i, j};
+    for (const bool inside : {true, false}) {
+      double best = std::numeric_limits<double>::infinity();
+      std::pair<std::size_t, std::size_t> choice{0, 0};
+      for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = i + n / 4; j < n && j - i <= n - n / 4; ++j) {
+          const double length = (p[i] - p[j]).squaredNorm();
+          if (length >= best || g.from(cell[i]) == g.from(cell[j])) continue;
+          if (inside && !flat.contains(i, j)) continue;
+          if (graph_.find_edge(cell[i], g.from(cell[j])) != kNone) continue;
+          best = length;
+          choice = {i, j};
+        }
       }
+      if (choice.first == choice.second) continue;
+      ++counts_.diagonals;
+      return graph_.connect(cell[choice.first], cell[choice.second]);
     }
-    if (choice.first == choice.second) return kNone;
-    ++counts_.diagonals;
-    return graph_.connect(cell[choice.first], cell[choice.second]);
+    return kNone;
   }
 
   /// Cells that touch themselves in a node: a diagonal separates the two visits, between new nodes

@@ -7,7 +7,7 @@ namespace strake {
 struct PartitionCounts {
   Index diagonals = 0;
   Index moved_nodes = 0;      ///< T-joints moved onto the line they lie on
-  Index concave_left = 0;     ///< faces that could not be made convex
+  Index centred_faces = 0;    ///< faces divided from a new node in their middle
   Index pinched_left = 0;     ///< faces with a repeated node that could not be divided
 };
 
