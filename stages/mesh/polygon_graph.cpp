@@ -174,20 +174,32 @@ Index PolygonGraph::connect(Index a, Index b) {
   return dart;
 }
 
-void PolygonGraph::dissolve(Index dart) {
-  const Index first = graph_.prev(dart);
-  const Index kept_edge = DartGraph::edge_of(first);
-  const Index other_edge = DartGraph::edge_of(dart);
-  std::vector<SurfaceNode> joined = course_[kept_edge];
+/// Appends the course of `dart` to that of `first`, which ends where `dart` starts.
+void PolygonGraph::extend_course(Index first, Index dart) {
+  std::vector<SurfaceNode>& joined = course_[DartGraph::edge_of(first)];
   if (first % 2 == 1) std::reverse(joined.begin(), joined.end());
   joined.push_back(nodes_[graph_.from(dart)]);
-  std::vector<SurfaceNode> rest = std::move(course_[other_edge]);
+  std::vector<SurfaceNode> rest = std::move(course_[DartGraph::edge_of(dart)]);
   if (dart % 2 == 1) std::reverse(rest.begin(), rest.end());
   joined.insert(joined.end(), rest.begin(), rest.end());
   if (first % 2 == 1) std::reverse(joined.begin(), joined.end());
-  course_[kept_edge] = std::move(joined);
-  course_[other_edge].clear();
+  course_[DartGraph::edge_of(dart)].clear();
+}
+
+void PolygonGraph::dissolve(Index dart) {
+  extend_course(graph_.prev(dart), dart);
   graph_.dissolve_node(dart);
+}
+
+void PolygonGraph::contract(Index dart) {
+  if (is_barrier(dart) && rank_[graph_.from(dart)] == NodeRank::barrier) {
+    for (Index d = graph_.rotate_ccw(dart); d != dart; d = graph_.rotate_ccw(d)) {
+      if (!is_barrier(d)) continue;
+      extend_course(DartGraph::opposite(d), dart);
+      break;
+    }
+  }
+  graph_.contract(dart);
 }
 
 SurfaceNode PolygonGraph::between(const SurfaceNode& a, const SurfaceNode& b, double share) const {

@@ -40,8 +40,10 @@ class PolygonGraph {
   /// Joins the origins of two darts of a cell by a straight edge.
   Index connect(Index a, Index b);
   void remove_edge(Index dart) { graph_.remove_edge(dart); }
-  /// Merges from(dart) into to(dart). \pre as for DartGraph::contract
-  void contract(Index dart) { graph_.contract(dart); }
+  /// Merges from(dart) into to(dart). Along a feature or boundary line the course of the edge goes
+  /// to the next edge of the line, so that no part of it is forgotten.
+  /// \pre as for DartGraph::contract
+  void contract(Index dart);
   /// Joins the two edges at from(dart).
   void dissolve(Index dart);
   /// Splits the edge at the point of its course nearest to `share` of its length, in (0, 1).
@@ -55,6 +57,7 @@ class PolygonGraph {
  private:
   void add_chain(const Overlay& overlay, Index first, std::vector<Index>& dart_of,
                  const std::vector<char>& kept, std::vector<Index>& node_of);
+  void extend_course(Index first, Index dart);
   [[nodiscard]] SurfaceNode between(const SurfaceNode& a, const SurfaceNode& b, double share) const;
 
   const TriMesh* mesh_;  ///< not owned

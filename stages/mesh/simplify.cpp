@@ -12,6 +12,8 @@ namespace {
 constexpr double kLargestSagitta = 0.06;
 /// A face may not turn by more than this when one of its nodes moves.
 constexpr double kLeastTurnCosine = 0.3;
+/// Corners of the feature graph are only merged below this share of the wanted edge length.
+constexpr double kShortestCornerEdge = 0.1;
 
 Vec3 newell_after_move(const PolygonGraph& graph, const std::vector<Index>& cell, Index moved,
                        const Vec3& target) {
@@ -107,7 +109,11 @@ void contract_short_edges(PolygonGraph& graph, const LocalSize& size, double sho
     if (!g.is_alive(d)) continue;
     const double wanted = std::min(size(graph.node(g.from(d))), size(graph.node(g.to(d))));
     const double ratio = (graph.position(g.from(d)) - graph.position(g.to(d))).norm() / wanted;
-    if (ratio < shortest) candidates.emplace_back(ratio, d);
+    const bool between_corners = graph.rank(g.from(d)) == NodeRank::corner &&
+                                 graph.rank(g.to(d)) == NodeRank::corner;
+    if (ratio < (between_corners ? std::min(shortest, kShortestCornerEdge) : shortest)) {
+      candidates.emplace_back(ratio, d);
+    }
   }
   std::sort(candidates.begin(), candidates.end());
   for (const auto& [ratio, even] : candidates) {

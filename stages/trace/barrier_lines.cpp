@@ -14,7 +14,7 @@ namespace {
 constexpr double kShortestFreeEnd = 1.5;
 /// Groups of joined lines shorter than this in all are left out, with and without a ring.
 constexpr double kSmallestTree = 3;
-constexpr double kSmallestRing = 1;
+constexpr double kSmallestRing = 0.25;
 
 
 /// The barrier half-edge that continues a line after `h`, or kNone at a corner or end.
