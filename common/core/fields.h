@@ -21,8 +21,8 @@ struct TensorField {
 /// Principal frames after smoothing, one per wedge, with the confidence that they mean something.
 struct PrincipalField {
   std::string mesh_id;
-  std::vector<Vec3> normal;  ///< [W] unit
-  std::vector<Vec3> t_min;   ///< [W] unit, orthogonal to `normal`; direction of k_min, sign free
+  std::vector<Vec3> normal;   ///< [W] unit
+  std::vector<Vec3> t_min;    ///< [W] unit, orthogonal to `normal`; direction of k_min, sign free
   std::vector<double> k_min;  ///< [W] 1/length, |k_min| <= |k_max|; positive where convex
   std::vector<double> k_max;  ///< [W] 1/length, along normal x t_min
   /// [W] unit, orthogonal to `normal`: one arm of the cross that lines follow. Equal to t_min where
@@ -31,7 +31,7 @@ struct PrincipalField {
   std::vector<Vec3> cross;
   std::vector<double> wedge_confidence;  ///< [W] in [0, 1], mean over the wedge's faces
   std::vector<double> face_confidence;   ///< [F] in [0, 1], [MK04] equation 1, of t_min
-  bool cross_extended = false;  ///< whether `cross` is the smooth 4-symmetric extension
+  bool cross_extended = false;           ///< whether `cross` is the smooth 4-symmetric extension
 };
 
 }  // namespace strake

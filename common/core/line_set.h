@@ -23,8 +23,9 @@ enum class LineEnd : std::uint8_t {
 
 /// A point of a line, on an edge or at a vertex of the mesh.
 struct LinePoint {
-  Index halfedge = kNone;  ///< edge points: either half-edge of the edge; vertices: any outgoing one
-  double lambda = 0;       ///< in [0, 1) along `halfedge`; exactly 0 means its origin vertex
+  Index halfedge =
+      kNone;          ///< edge points: either half-edge of the edge; vertices: any outgoing one
+  double lambda = 0;  ///< in [0, 1) along `halfedge`; exactly 0 means its origin vertex
 };
 
 /// Lines on a TriMesh as sequences of crossings, one straight chord per face in between
@@ -32,15 +33,16 @@ struct LinePoint {
 struct LineSet {
   std::string mesh_id;
 
-  std::vector<Index> offsets = {0};  ///< [L + 1] line l has the points offsets[l] .. offsets[l + 1] - 1
-  std::vector<LinePoint> points;     ///< [P]; a closed line does not repeat its first point
+  std::vector<Index> offsets = {
+      0};  ///< [L + 1] line l has the points offsets[l] .. offsets[l + 1] - 1
+  std::vector<LinePoint> points;  ///< [P]; a closed line does not repeat its first point
   /// [P] face of the chord from this point to the next of its line (to the first, after the last
   /// point of a closed line); kNone after the last point, and where the chord runs along an edge
   /// (then `points[i].halfedge` is that edge's half-edge and its lambda is 0).
   std::vector<Index> chord_face;
   std::vector<LineFamily> chord_family;  ///< [P] may change along a line ([MK04] section 4.2)
 
-  std::vector<LineFamily> family;  ///< [L] at the seed
+  std::vector<LineFamily> family;     ///< [L] at the seed
   std::vector<LineEnd> start_reason;  ///< [L]
   std::vector<LineEnd> end_reason;    ///< [L]
   std::vector<Index> seed_point;      ///< [L] index into `points` of the point nearest to the seed

@@ -13,11 +13,13 @@ namespace strake {
 /// A length as the user wrote it: a share of the bounding-box diagonal ("0.1%") or model units
 /// ("2.5").
 struct Length {
-  double value = 0;       ///< share (0.001 for "0.1%") or model units
-  bool relative = true;   ///< whether `value` is a share of the diagonal
+  double value = 0;      ///< share (0.001 for "0.1%") or model units
+  bool relative = true;  ///< whether `value` is a share of the diagonal
 
   /// The length in model units, for a mesh of the given bounding-box diagonal.
-  [[nodiscard]] double resolve(double diagonal) const { return relative ? value * diagonal : value; }
+  [[nodiscard]] double resolve(double diagonal) const {
+    return relative ? value * diagonal : value;
+  }
   /// The text that `parse` reads back to an equal length: "0.1%" or "2.5".
   [[nodiscard]] std::string to_string() const;
   /// \throw UsageError where the text is not a finite number, optionally followed by '%'
@@ -29,9 +31,9 @@ inline constexpr Length percent(double share) { return {share / 100, true}; }
 
 /// One declared option: the single source of flags, help, range checks and provenance.
 struct Option {
-  using Target = std::variant<bool*, std::int64_t*, double*, std::string*, Length*,
-                              std::optional<std::int64_t>*, std::optional<double>*,
-                              std::optional<Length>*>;
+  using Target =
+      std::variant<bool*, std::int64_t*, double*, std::string*, Length*,
+                   std::optional<std::int64_t>*, std::optional<double>*, std::optional<Length>*>;
 
   std::string name;  ///< as on the command line, without dashes: "feature-angle"
   Target target;     ///< where the value lives; holds the default until parsed
@@ -42,7 +44,7 @@ struct Option {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
   std::vector<std::string> choices = {};  ///< of a string option; empty: any text
-  bool affects_result = true;  ///< false for --threads: not part of provenance and keys
+  bool affects_result = true;             ///< false for --threads: not part of provenance and keys
 
   /// The present value as text, in the form `parse_into` reads; "" for an empty optional.
   [[nodiscard]] std::string value() const;

@@ -12,9 +12,10 @@ namespace strake {
 
 /// A polygon mesh as in a file: what readers return and what remeshing produces.
 struct PolyMesh {
-  std::vector<Vec3> positions;      ///< [V], model coordinates
-  std::vector<Index> offsets = {0};  ///< [F + 1] face f has the corners offsets[f] .. offsets[f + 1] - 1
-  std::vector<Index> corners;       ///< vertex of each corner, counter-clockwise
+  std::vector<Vec3> positions;  ///< [V], model coordinates
+  std::vector<Index> offsets = {
+      0};                      ///< [F + 1] face f has the corners offsets[f] .. offsets[f + 1] - 1
+  std::vector<Index> corners;  ///< vertex of each corner, counter-clockwise
 
   [[nodiscard]] Index vertex_count() const { return static_cast<Index>(positions.size()); }
   [[nodiscard]] Index face_count() const { return static_cast<Index>(offsets.size()) - 1; }

@@ -18,7 +18,9 @@ class Report {
   void set(const std::string& key, bool value) { put(key, value); }
   void set(const std::string& key, std::int64_t value) { put(key, value); }
   void set(const std::string& key, int value) { put(key, std::int64_t{value}); }
-  void set(const std::string& key, std::size_t value) { put(key, static_cast<std::int64_t>(value)); }
+  void set(const std::string& key, std::size_t value) {
+    put(key, static_cast<std::int64_t>(value));
+  }
   void set(const std::string& key, double value) { put(key, value); }
   void set(const std::string& key, std::string value) { put(key, std::move(value)); }
   void set(const std::string& key, const char* value) { put(key, std::string(value)); }

@@ -22,10 +22,12 @@ struct TriMesh {
   std::vector<Vec3> positions;              ///< [V], model units, relative to `origin`
   std::vector<std::array<Index, 3>> faces;  ///< [F], counter-clockwise seen from outside
 
-  std::vector<Index> twin;          ///< [3F] opposite half-edge, kNone on the boundary
-  std::vector<Index> vertex_out;    ///< [V] an outgoing half-edge; the clockwise-most one on a boundary
+  std::vector<Index> twin;  ///< [3F] opposite half-edge, kNone on the boundary
+  std::vector<Index>
+      vertex_out;  ///< [V] an outgoing half-edge; the clockwise-most one on a boundary
   std::vector<std::uint8_t> is_feature;  ///< [3F] 1 on feature half-edges, boundary excluded
-  std::vector<std::uint8_t> is_corner;   ///< [V] 1 where feature or boundary lines end, meet or turn sharply
+  std::vector<std::uint8_t>
+      is_corner;  ///< [V] 1 where feature or boundary lines end, meet or turn sharply
 
   std::vector<std::array<Index, 3>> face_wedges;  ///< [F] wedge of each corner
   std::vector<Index> wedge_vertex;                ///< [W] vertex of each wedge
@@ -50,7 +52,9 @@ struct TriMesh {
   [[nodiscard]] bool is_boundary(Index h) const { return twin[h] == kNone; }
   /// Whether fields end at this edge: a feature or boundary edge.
   [[nodiscard]] bool is_barrier(Index h) const { return twin[h] == kNone || is_feature[h] != 0; }
-  [[nodiscard]] Index edge_of(Index h) const { return twin[h] == kNone || h < twin[h] ? h : twin[h]; }
+  [[nodiscard]] Index edge_of(Index h) const {
+    return twin[h] == kNone || h < twin[h] ? h : twin[h];
+  }
   /// The next outgoing half-edge counter-clockwise around from(h); kNone past a boundary.
   [[nodiscard]] Index rotate_ccw(Index h) const { return twin[prev(h)]; }
   /// The next outgoing half-edge clockwise around from(h); kNone past a boundary.

@@ -89,9 +89,9 @@ std::optional<FaceExit> find_exit(const FaceChart& chart, const Vec2& point,
     const double length2 = edge.squaredNorm();
     best.halfedge = h;
     best.step = step;
-    best.lambda =
-        length2 > 0 ? std::clamp((point + step * displacement - a).dot(edge) / length2, 0.0, 1.0)
-                    : 0.5;
+    best.lambda = length2 > 0
+                      ? std::clamp((point + step * displacement - a).dot(edge) / length2, 0.0, 1.0)
+                      : 0.5;
   }
   if (best.halfedge == kNone) return std::nullopt;
   return best;

@@ -59,7 +59,8 @@ struct VertexExit {
 /// to a full turn ([MK04] section 3.1, case 3, after Welch and Witkin 1994).
 /// \param corner  half-edge of the face the line comes from, starting at the vertex
 /// \param angle   of the direction *back* along the line, counter-clockwise from `corner`
-/// \return the way out; nullopt where the vertex is on the boundary and the way out leaves the surface
+/// \return the way out; nullopt where the vertex is on the boundary and the way out leaves the
+/// surface
 std::optional<VertexExit> cross_vertex(const TriMesh& mesh, Index corner, double angle);
 
 }  // namespace strake

@@ -68,7 +68,8 @@ inline Eigen2 eigen_symmetric2(double xx, double xy, double yy) {
   const double mean = 0.5 * (xx + yy);
   const double half = 0.5 * (xx - yy);
   const double radius = std::hypot(half, xy);
-  const double angle = radius > 0 ? 0.5 * std::atan2(xy, half) : 0.0;  // of the algebraically larger
+  const double angle =
+      radius > 0 ? 0.5 * std::atan2(xy, half) : 0.0;  // of the algebraically larger
   const double high = mean + radius;
   const double low = mean - radius;
   const bool high_is_larger = std::abs(high) >= std::abs(low);

@@ -11,7 +11,8 @@ inline bool is_vertex_point(const LinePoint& p) { return p.lambda == 0; }
 /// different edges of it, or one is a corner and the other on the opposite edge.
 inline bool is_proper_chord(const TriMesh& mesh, Index face, const LinePoint& a,
                             const LinePoint& b) {
-  const auto side = [&](const LinePoint& p) -> int {  // local edge, or 3 + local corner; -1: not here
+  const auto side =
+      [&](const LinePoint& p) -> int {  // local edge, or 3 + local corner; -1: not here
     if (is_vertex_point(p)) {
       for (int i = 0; i < 3; ++i) {
         if (mesh.faces[face][i] == mesh.from(p.halfedge)) return 3 + i;

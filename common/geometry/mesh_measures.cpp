@@ -28,7 +28,8 @@ std::vector<Vec3> face_normals(const TriMesh& mesh) {
     const auto& v = mesh.faces[f];
     double longest = 0;
     for (int i = 0; i < 3; ++i) {
-      longest = std::max(longest, (mesh.positions[v[(i + 1) % 3]] - mesh.positions[v[i]]).squaredNorm());
+      longest =
+          std::max(longest, (mesh.positions[v[(i + 1) % 3]] - mesh.positions[v[i]]).squaredNorm());
     }
     const double length = n.norm();
     if (length > kSliverRatio * longest && length > 0) {

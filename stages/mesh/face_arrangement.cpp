@@ -55,7 +55,8 @@ void FaceArrangement::walk_outline(Index face, Index first) {
     } else {  // stored in the face across the edge
       // The twin starts where this edge ends: its origin's weight is the share of the way here.
       const double lambda = info.barycentric[mesh_.twin[3 * face + corner] % 3];
-      barycentric_[node] = (1 - lambda) * Vec3::Unit(corner) + lambda * Vec3::Unit((corner + 1) % 3);
+      barycentric_[node] =
+          (1 - lambda) * Vec3::Unit(corner) + lambda * Vec3::Unit((corner + 1) % 3);
     }
     d = overlay_.graph.next(d);
   } while (d != first);
@@ -82,8 +83,8 @@ Index FaceArrangement::start_corner(const Chord& chord) const {
     const Index id = overlay_.chord[DartGraph::edge_of(d)];
     if (id == kNone) break;  // the outline again
     const Placed& other = placed_[id];
-    const Index far = other.from_position == position_[chord.from] ? other.to_position
-                                                                   : other.from_position;
+    const Index far =
+        other.from_position == position_[chord.from] ? other.to_position : other.from_position;
     if (around(far) > wanted) break;
     best = d;
   }
@@ -149,7 +150,8 @@ void FaceArrangement::insert_chord(Index face, const Chord& chord, Index id) {
   for (; pending > 0; --pending) {
     const Index dart = next_crossing(corner);
     if (dart == kNone) {
-      throw AlgorithmError("face " + std::to_string(face) + ": its chords do not form an arrangement");
+      throw AlgorithmError("face " + std::to_string(face) +
+                           ": its chords do not form an arrangement");
     }
     Placed& other = placed_[overlay_.chord[DartGraph::edge_of(dart)]];
     other.pending = false;

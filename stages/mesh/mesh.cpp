@@ -24,8 +24,7 @@ double local_size(const TriMesh& mesh, const LineSet& lines, const SurfaceNode& 
   double size = 0;
   for (int i = 0; i < 3; ++i) {
     const Index w = mesh.face_wedges[node.face][i];
-    size += node.barycentric[i] *
-            std::min(lines.spacing_along_min[w], lines.spacing_along_max[w]);
+    size += node.barycentric[i] * std::min(lines.spacing_along_min[w], lines.spacing_along_max[w]);
   }
   return size;
 }

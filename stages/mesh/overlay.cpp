@@ -120,7 +120,8 @@ class EdgeCutter {
 
   void mark_feature_lines(const LineSet& lines) {
     for (Index l = 0; l < lines.line_count(); ++l) {
-      if (lines.family[l] != LineFamily::boundary && lines.family[l] != LineFamily::feature) continue;
+      if (lines.family[l] != LineFamily::boundary && lines.family[l] != LineFamily::feature)
+        continue;
       for (Index p = lines.offsets[l]; p < lines.offsets[l + 1]; ++p) {
         if (lines.chord_face[p] != kNone) continue;
         const Index e = mesh_.edge_of(lines.points[p].halfedge);
@@ -229,7 +230,8 @@ void merge_cells(Overlay& overlay) {
       Index d = first_dart[queue[at]];
       do {
         const Index other = cell[DartGraph::opposite(d)];
-        if (overlay.kind[DartGraph::edge_of(d)] == EdgeKind::surface && sets.unite(cell[d], other)) {
+        if (overlay.kind[DartGraph::edge_of(d)] == EdgeKind::surface &&
+            sets.unite(cell[d], other)) {
           removable.push_back(d);
           if (seen[other] == 0) {
             seen[other] = 1;
@@ -274,8 +276,8 @@ Overlay build_overlay(const TriMesh& mesh, const LineSet& lines, Observer& obser
     for (Index p = lines.offsets[l]; p < lines.offsets[l + 1]; ++p) {
       if (lines.chord_face[p] == kNone) continue;
       const Index q = p + 1 < lines.offsets[l + 1] ? p + 1 : lines.offsets[l];
-      chords.push_back({lines.chord_face[p],
-                        {cutter.point_nodes()[p], cutter.point_nodes()[q], l}});
+      chords.push_back(
+          {lines.chord_face[p], {cutter.point_nodes()[p], cutter.point_nodes()[q], l}});
     }
   }
   std::stable_sort(chords.begin(), chords.end(),

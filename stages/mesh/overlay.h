@@ -32,9 +32,9 @@ struct SurfaceNode {
 struct Overlay {
   DartGraph graph;
   std::vector<SurfaceNode> nodes;
-  std::vector<EdgeKind> kind;     ///< [edges]
-  std::vector<Index> line;        ///< [edges] line of the LineSet, kNone on surface edges
-  std::vector<Index> chord;       ///< [edges] chord within its face while faces are cut; kNone else
+  std::vector<EdgeKind> kind;  ///< [edges]
+  std::vector<Index> line;     ///< [edges] line of the LineSet, kNone on surface edges
+  std::vector<Index> chord;    ///< [edges] chord within its face while faces are cut; kNone else
 };
 
 /// Cuts the mesh along all lines.

@@ -192,7 +192,8 @@ class Partitioner {
           if (g.from(cell[i]) == g.from(cell[j])) continue;
           if (!relaxed && !flat.contains(i, j)) continue;
           if (graph_.find_edge(cell[i], g.from(cell[j])) != kNone) continue;
-          Polygon one(p.begin() + static_cast<std::ptrdiff_t>(i), p.begin() + static_cast<std::ptrdiff_t>(j) + 1);
+          Polygon one(p.begin() + static_cast<std::ptrdiff_t>(i),
+                      p.begin() + static_cast<std::ptrdiff_t>(j) + 1);
           Polygon two(p.begin() + static_cast<std::ptrdiff_t>(j), p.end());
           two.insert(two.end(), p.begin(), p.begin() + static_cast<std::ptrdiff_t>(i) + 1);
           double score = penalty(one, n) + penalty(two, n);
@@ -304,7 +305,8 @@ class Partitioner {
   /// Two positions of a cell at the same node; equal where there are none.
   std::pair<std::size_t, std::size_t> repeated(const std::vector<Index>& cell) const {
     std::vector<std::pair<Index, std::size_t>> nodes;
-    for (std::size_t i = 0; i < cell.size(); ++i) nodes.emplace_back(graph_.graph().from(cell[i]), i);
+    for (std::size_t i = 0; i < cell.size(); ++i)
+      nodes.emplace_back(graph_.graph().from(cell[i]), i);
     std::sort(nodes.begin(), nodes.end());
     for (std::size_t i = 1; i < nodes.size(); ++i) {
       if (nodes[i].first == nodes[i - 1].first) return {nodes[i - 1].second, nodes[i].second};

@@ -19,8 +19,8 @@ std::vector<char> kept_nodes(const TriMesh& mesh, const Overlay& overlay) {
     if (!graph.is_alive(d)) continue;
     const Index n = graph.from(d);
     ++degree[n];
-    if (some_dart[n] != kNone && overlay.kind[DartGraph::edge_of(some_dart[n])] !=
-                                     overlay.kind[DartGraph::edge_of(d)]) {
+    if (some_dart[n] != kNone &&
+        overlay.kind[DartGraph::edge_of(some_dart[n])] != overlay.kind[DartGraph::edge_of(d)]) {
       kept[n] = 1;
     }
     some_dart[n] = d;
@@ -254,7 +254,7 @@ Index PolygonGraph::split(Index dart, double share) {
   const double span = arc[at] - arc[at - 1];
   const double local = span > 0 ? std::clamp((wanted - arc[at - 1]) / span, 0.0, 1.0) : 0.5;
   SurfaceNode middle;
-  std::size_t resume = at;  // first inner point of the second half
+  std::size_t resume = at;       // first inner point of the second half
   constexpr double kSnap = 0.3;  // to a point that exists, so that corners of the course are kept
   if (local > 1 - kSnap && at + 1 < points.size()) {
     middle = points[at];

@@ -109,8 +109,8 @@ void contract_short_edges(PolygonGraph& graph, const LocalSize& size, double sho
     if (!g.is_alive(d)) continue;
     const double wanted = std::min(size(graph.node(g.from(d))), size(graph.node(g.to(d))));
     const double ratio = (graph.position(g.from(d)) - graph.position(g.to(d))).norm() / wanted;
-    const bool between_corners = graph.rank(g.from(d)) == NodeRank::corner &&
-                                 graph.rank(g.to(d)) == NodeRank::corner;
+    const bool between_corners =
+        graph.rank(g.from(d)) == NodeRank::corner && graph.rank(g.to(d)) == NodeRank::corner;
     if (ratio < (between_corners ? std::min(shortest, kShortestCornerEdge) : shortest)) {
       candidates.emplace_back(ratio, d);
     }
@@ -145,8 +145,8 @@ void divide_bent_barriers(PolygonGraph& graph, const LocalSize& size, SimplifyCo
     const Vec3 along = course.back() - course.front();
     const double length = along.norm();
     if (course.size() < 3 || !(length > 0)) continue;
-    double worst = kLargestSagitta *
-                   std::min(size(graph.node(g.from(d))), size(graph.node(g.to(d))));
+    double worst =
+        kLargestSagitta * std::min(size(graph.node(g.from(d))), size(graph.node(g.to(d))));
     double arc = 0;
     double worst_arc = -1;
     for (std::size_t i = 1; i + 1 < course.size(); ++i) {
@@ -199,7 +199,8 @@ bool can_contract(const PolygonGraph& graph, Index dart) {
       on_boundary(graph, DartGraph::opposite(dart))) {
     return false;
   }
-  if (!only_one_edge_to(graph, dart) || !only_one_edge_to(graph, DartGraph::opposite(dart))) return false;
+  if (!only_one_edge_to(graph, dart) || !only_one_edge_to(graph, DartGraph::opposite(dart)))
+    return false;
   int triangles = 0;
   for (const Index side : {dart, DartGraph::opposite(dart)}) {
     const std::vector<Index> cell = graph.cell(side);

@@ -14,7 +14,7 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr double kFeatureWeight = 100;  ///< against Dirichlet weights of order one
-constexpr double kBoundaryWeight = 5;   ///< scan boundaries are ragged: follow, but not at any price
+constexpr double kBoundaryWeight = 5;  ///< scan boundaries are ragged: follow, but not at any price
 constexpr double kTolerance = 1e-5;
 constexpr int kMaxIterations = 2000;
 

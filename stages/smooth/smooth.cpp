@@ -47,8 +47,8 @@ void set_confidence(const TriMesh& mesh, const std::vector<Vec3>& normals, Princ
       const Index w = mesh.face_wedges[f][i];
       d[i] = rotate_between(field.normal[w], normals[f], field.t_min[w]);
     }
-    const double least = std::min({std::abs(d[0].dot(d[1])), std::abs(d[1].dot(d[2])),
-                                   std::abs(d[2].dot(d[0]))});
+    const double least =
+        std::min({std::abs(d[0].dot(d[1])), std::abs(d[1].dot(d[2])), std::abs(d[2].dot(d[0]))});
     field.face_confidence[f] = std::clamp(least, 0.0, 1.0);
   });
   std::vector<double> sum(mesh.wedge_count(), 0);

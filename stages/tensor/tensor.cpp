@@ -64,14 +64,16 @@ TensorResult estimate_tensors(const TriMesh& mesh, const TensorOptions& options,
   result.field.normal = wedge_normals(mesh, normals);
   result.field.tensor.resize(mesh.wedge_count());
 
-  tbb::enumerable_thread_specific<BallWalker> walkers([&] { return BallWalker(mesh, normals, beta); });
+  tbb::enumerable_thread_specific<BallWalker> walkers(
+      [&] { return BallWalker(mesh, normals, beta); });
   std::atomic<Index> grown{0};
   const Index blocks = (mesh.wedge_count() + kBlock - 1) / kBlock;
   const Index reports = std::min<Index>(blocks, 64);
   for (Index part = 0; part < reports; ++part) {
     const Index first = static_cast<Index>(std::int64_t{blocks} * part / reports) * kBlock;
-    const Index last = std::min<Index>(
-        static_cast<Index>(std::int64_t{blocks} * (part + 1) / reports) * kBlock, mesh.wedge_count());
+    const Index last =
+        std::min<Index>(static_cast<Index>(std::int64_t{blocks} * (part + 1) / reports) * kBlock,
+                        mesh.wedge_count());
     tbb::parallel_for(tbb::blocked_range<Index>(first, last, 32), [&](const auto& range) {
       BallWalker& walker = walkers.local();
       for (Index w = range.begin(); w != range.end(); ++w) {

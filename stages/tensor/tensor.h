@@ -21,8 +21,8 @@ struct TensorResult {
 
 /// Estimates the curvature tensor of every wedge by normal cycles over a ball.
 ///
-/// Paper: [MK04] section 2 after Cohen-Steiner and Morvan 2003: T = 1/|B| sum of beta |e in B| e e^T.
-/// The ball is mesh-connected and does not cross feature edges; |B| is the true area inside.
+/// Paper: [MK04] section 2 after Cohen-Steiner and Morvan 2003: T = 1/|B| sum of beta |e in B| e
+/// e^T. The ball is mesh-connected and does not cross feature edges; |B| is the true area inside.
 /// \return tensor [W], 1/length, positive where convex
 /// Cost O(W * faces per ball). Deterministic for any thread count.
 TensorResult estimate_tensors(const TriMesh& mesh, const TensorOptions& options,

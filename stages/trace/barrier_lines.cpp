@@ -15,7 +15,8 @@ constexpr double kShortestFreeEnd = 1.5;
 /// Groups of joined lines shorter than this in all are left out, with and without a ring.
 constexpr double kSmallestTree = 3;
 constexpr double kSmallestRing = 0.25;
-
+/// Lines that cross a ring: three, with some room for the distance at which lines stop.
+constexpr double kFewestOnRing = 3.5;
 
 /// The barrier half-edge that continues a line after `h`, or kNone at a corner or end.
 Index next_along(const TriMesh& mesh, Index h, bool boundary) {
@@ -149,12 +150,22 @@ std::vector<char> too_small(const TriMesh& mesh, const std::vector<BarrierLine>&
   }
   for (std::size_t l = 0; l < lines.size(); ++l) {
     const Index g = find(static_cast<Index>(l));
-    if (!lines[l].boundary && total[g] < (ring[g] != 0 ? kSmallestRing : kSmallestTree)) dropped[l] = 1;
+    if (!lines[l].boundary && total[g] < (ring[g] != 0 ? kSmallestRing : kSmallestTree))
+      dropped[l] = 1;
   }
   return dropped;
 }
 
 }  // namespace
+
+void bound_rings(const TriMesh& mesh, SpacingModel& model) {
+  for (const BarrierLine& line : all_lines(mesh)) {
+    if (!line.closed) continue;
+    double length = 0;
+    for (const Index h : line.halfedges) length += edge_vector(mesh, h).norm();
+    model.bound_along(line.halfedges, length / kFewestOnRing);
+  }
+}
 
 std::vector<BarrierLine> barrier_lines(const TraceDomain& domain) {
   std::vector<BarrierLine> lines = all_lines(domain.mesh);
@@ -255,8 +266,8 @@ void seed_at_corners(const TraceDomain& domain, const std::vector<std::uint8_t>&
       seed.face = TriMesh::face_of(corner);
       seed.anchor = {corner, 0};
       const Vec3 edge = edge_vector(mesh, corner).normalized();
-      seed.direction = edge * std::cos(wanted) +
-                       domain.face_normals[seed.face].cross(edge) * std::sin(wanted);
+      seed.direction =
+          edge * std::cos(wanted) + domain.face_normals[seed.face].cross(edge) * std::sin(wanted);
       seeds.push_back(seed);
     }
   }

@@ -8,11 +8,15 @@ namespace strake {
 
 /// A feature or boundary line: edges that follow each other between corners, or a loop.
 struct BarrierLine {
-  std::vector<Index> halfedges;  ///< each starts where the one before ends; boundary ones face inwards
+  std::vector<Index>
+      halfedges;  ///< each starts where the one before ends; boundary ones face inwards
   bool closed = false;
   bool boundary = false;
   double measure = 0;  ///< length in units of the distance wanted between lines that cross it
 };
+
+/// Keeps spacings along rings of feature and boundary edges small enough for three lines to cross.
+void bound_rings(const TriMesh& mesh, SpacingModel& model);
 
 /// The feature and boundary lines ([MK04] section 3), cut at corners.
 ///

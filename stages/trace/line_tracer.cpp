@@ -30,19 +30,19 @@ double cross2(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x
 /// The moving end of a line.
 struct LineTracer::Head {
   FieldContext context;
-  Vec2 point = Vec2::Zero();    ///< chart
-  Vec2 heading = Vec2::Zero();  ///< chart, unit
-  Vec2 trusted = Vec2::Zero();  ///< chart, average of the last reliable headings
+  Vec2 point = Vec2::Zero();                     ///< chart
+  Vec2 heading = Vec2::Zero();                   ///< chart, unit
+  Vec2 trusted = Vec2::Zero();                   ///< chart, average of the last reliable headings
   std::array<Index, 2> closed = {kNone, kNone};  ///< half-edges that are no way out of the face
   LineFamily family = LineFamily::minimum;
   bool was_reliable = true;
   Index line = kNone;
-  double arc = 0;          ///< length from the seed
-  double sign = 1;         ///< -1 on the backward half
+  double arc = 0;            ///< length from the seed
+  double sign = 1;           ///< -1 on the backward half
   bool from_corner = false;  ///< whether the line starts at a vertex
-  double to_spawn = 1;     ///< line distances until the next seed for a crossing line
-  LinePoint last;          ///< last recorded point; halfedge kNone while in the seed's face
-  Vec3 last_position;      ///< world, of `last` or the seed
+  double to_spawn = 1;       ///< line distances until the next seed for a crossing line
+  LinePoint last;            ///< last recorded point; halfedge kNone while in the seed's face
+  Vec3 last_position;        ///< world, of `last` or the seed
 };
 
 /// What one half of a line has recorded so far.
@@ -96,8 +96,9 @@ LineTracer::Head LineTracer::start_head(const Seed& seed, bool forward) const {
   wanted.normalize();
   head.family = family_at(domain_, head.context, head.point, wanted);
   // From a vertex the way into this face is given; turning it could point into another one.
-  head.heading = head.from_corner ? wanted : field_direction(domain_, head.context, head.point,
-                                                             wanted, head.family);
+  head.heading = head.from_corner
+                     ? wanted
+                     : field_direction(domain_, head.context, head.point, wanted, head.family);
   head.trusted = head.heading;
   head.sign = forward ? 1 : -1;
   head.last = seed.anchor;
@@ -143,7 +144,8 @@ void LineTracer::spawn(Head& head, const LocalSpacing& spacing, double step,
   seed.face = head.context.chart.face;
   seed.barycentric = head.context.chart.barycentric(head.point).cwiseMax(0.0);
   seed.barycentric /= seed.barycentric.sum();
-  seed.direction = world_direction(domain_, head.context, Vec2(-head.heading.y(), head.heading.x()));
+  seed.direction =
+      world_direction(domain_, head.context, Vec2(-head.heading.y(), head.heading.x()));
   spawned.push_back(seed);
 }
 
@@ -178,8 +180,7 @@ Vec2 LineTracer::runge_kutta(const Head& head, double step) const {
 
 bool LineTracer::record(Head& head, const LinePoint& point, const Vec2& at, HalfLine& half) {
   const Index face = head.context.chart.face;
-  if (head.last.halfedge != kNone &&
-      !is_proper_chord(domain_.mesh, face, head.last, point)) {
+  if (head.last.halfedge != kNone && !is_proper_chord(domain_.mesh, face, head.last, point)) {
     half.end = LineEnd::stuck;  // the line turned back on itself within a face
     return false;
   }
@@ -340,8 +341,7 @@ bool LineTracer::try_close(const Head& start, const LocalSpacing& spacing, doubl
   return false;
 }
 
-void LineTracer::trace_half(Head head, bool may_close, HalfLine& half,
-                            std::vector<Seed>& spawned) {
+void LineTracer::trace_half(Head head, bool may_close, HalfLine& half, std::vector<Seed>& spawned) {
   half.end = LineEnd::step_limit;
   int standing = 0;
   for (int step = 0; step < kMaxSteps; ++step) {
@@ -438,8 +438,8 @@ bool LineTracer::trace(const Seed& seed, Index line, TracedLine& result,
       backward.end = LineEnd::feature;
     }
   } else if (anchored) {
-    backward.end = domain_.mesh.is_boundary(seed.anchor.halfedge) ? LineEnd::boundary
-                                                                  : LineEnd::feature;
+    backward.end =
+        domain_.mesh.is_boundary(seed.anchor.halfedge) ? LineEnd::boundary : LineEnd::feature;
   }
   result.start_reason = forward.end == LineEnd::closed ? LineEnd::closed : backward.end;
   result.end_reason = forward.end;

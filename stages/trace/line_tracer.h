@@ -19,8 +19,8 @@ struct Seed {
 /// A finished line, in the representation of LineSet.
 struct TracedLine {
   std::vector<LinePoint> points;
-  std::vector<Index> chord_face;          ///< [P] face of the chord to the next point
-  std::vector<LineFamily> chord_family;   ///< [P]
+  std::vector<Index> chord_face;         ///< [P] face of the chord to the next point
+  std::vector<LineFamily> chord_family;  ///< [P]
   LineFamily family = LineFamily::minimum;
   LineEnd start_reason = LineEnd::stuck;
   LineEnd end_reason = LineEnd::stuck;
@@ -56,14 +56,16 @@ class LineTracer {
   bool fits(const Head& head);
   ProximityHit look_around(const Head& head, double fraction, const LocalSpacing& spacing);
   void cover(const Head& head, const LocalSpacing& spacing);
-  void spawn(Head& head, const LocalSpacing& spacing, double step, std::vector<Seed>& spawned) const;
+  void spawn(Head& head, const LocalSpacing& spacing, double step,
+             std::vector<Seed>& spawned) const;
   void trace_half(Head head, bool may_close, HalfLine& half, std::vector<Seed>& spawned);
   Vec2 runge_kutta(const Head& head, double step) const;
   bool advance(Head& head, Vec2 displacement, HalfLine& half);
   bool pass_vertex(Head& head, Index corner, const Vec2& direction, HalfLine& half);
   bool pass_feature(Head& head, Index h, HalfLine& half);
   bool record(Head& head, const LinePoint& point, const Vec2& at, HalfLine& half);
-  bool try_close(const Head& head, const LocalSpacing& spacing, double least_cosine, HalfLine& half);
+  bool try_close(const Head& head, const LocalSpacing& spacing, double least_cosine,
+                 HalfLine& half);
   bool join(const HalfLine& forward, const HalfLine& backward, const Seed& seed,
             TracedLine& result) const;
 

@@ -16,7 +16,10 @@ double squared_distance(const Vec3& p, const Vec3& a, const Vec3& b) {
 }  // namespace
 
 ProximityIndex::ProximityIndex(const TriMesh& mesh, const std::vector<std::uint8_t>& barriers)
-    : mesh_(mesh), barriers_(barriers), head_(mesh.face_count(), kNone), stamp_(mesh.face_count(), 0) {}
+    : mesh_(mesh),
+      barriers_(barriers),
+      head_(mesh.face_count(), kNone),
+      stamp_(mesh.face_count(), 0) {}
 
 void ProximityIndex::insert(Index face, LineSegment segment) {
   segment.next = head_[face];
@@ -62,7 +65,9 @@ ProximityHit ProximityIndex::query(const ProximityQuery& query) {
   grow_cell(query.face, query.point, query.radius);
   ProximityHit hit;
   double best = query.distance * query.distance;
-  const auto same_direction = [&](const Vec3& d) { return std::abs(d.dot(query.direction)) > M_SQRT1_2; };
+  const auto same_direction = [&](const Vec3& d) {
+    return std::abs(d.dot(query.direction)) > M_SQRT1_2;
+  };
   for (const Index f : cell_) {
     for (Index s = head_[f]; s != kNone; s = segments_[s].next) {
       const LineSegment& segment = segments_[s];

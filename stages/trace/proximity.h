@@ -11,9 +11,9 @@ namespace strake {
 struct LineSegment {
   Vec3 a;
   Vec3 b;
-  Vec3 direction;     ///< unit, in the sense the line runs
+  Vec3 direction;  ///< unit, in the sense the line runs
   Index line = kNone;
-  double arc = 0;     ///< signed length along the line from its seed, at the middle
+  double arc = 0;  ///< signed length along the line from its seed, at the middle
   LineFamily family = LineFamily::minimum;
   Index next = kNone;  ///< in the list of the same face
 };
@@ -26,7 +26,7 @@ struct ProximityQuery {
   double radius = 0;    ///< of the p-cell
   double distance = 0;  ///< conflicts are closer than this, at most `radius`
   LineFamily family = LineFamily::minimum;
-  bool by_family = false;     ///< compare families instead of directions ([MK04] section 4.2)
+  bool by_family = false;  ///< compare families instead of directions ([MK04] section 4.2)
   Index own_line = kNone;
   double own_arc = 0;
   double own_skip = 0;  ///< pieces of the own line nearer than this along the line do not count
@@ -35,7 +35,7 @@ struct ProximityQuery {
 
 struct ProximityHit {
   bool conflict = false;
-  bool own = false;      ///< the conflict is with the line itself
+  bool own = false;  ///< the conflict is with the line itself
   double distance = 0;
 };
 
@@ -69,8 +69,8 @@ class ProximityIndex {
   const std::vector<std::uint8_t>& barriers_;
   std::vector<LineSegment> segments_;
   std::vector<Index> segment_face_;
-  std::vector<Index> head_;            ///< [F] first segment of each face
-  std::vector<std::uint32_t> stamp_;   ///< [F] cell the face was last part of
+  std::vector<Index> head_;           ///< [F] first segment of each face
+  std::vector<std::uint32_t> stamp_;  ///< [F] cell the face was last part of
   std::uint32_t current_ = 0;
   std::vector<Index> cell_;
   std::uint64_t query_count_ = 0;

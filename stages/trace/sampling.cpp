@@ -43,9 +43,8 @@ void set_directions(const TraceDomain& domain, const std::complex<double>& turn,
     context.arm[i] = Vec2(z.real(), z.imag());
     const std::complex<double> square = z * z;
     // Without the extension the tensors' deviators are interpolated, as [MK04] section 2 does.
-    context.power[i] = field.cross_extended
-                           ? square * square
-                           : square * std::abs(field.k_max[w] - field.k_min[w]);
+    context.power[i] =
+        field.cross_extended ? square * square : square * std::abs(field.k_max[w] - field.k_min[w]);
   }
   if (field.cross_extended) {
     const auto agree = [&](int i, int j) {
@@ -84,8 +83,7 @@ Vec2 field_direction(const TraceDomain& domain, const FieldContext& context, con
   const std::complex<double> power = interpolated_power(context, point);
   if (!(std::abs(power) > 0)) return heading;
   if (domain.field.cross_extended) return cross_arm(power, heading);
-  const double angle =
-      std::arg(power) / 2 + (family == LineFamily::maximum ? M_PI / 2 : 0.0);
+  const double angle = std::arg(power) / 2 + (family == LineFamily::maximum ? M_PI / 2 : 0.0);
   const Vec2 d(std::cos(angle), std::sin(angle));
   return d.dot(heading) >= 0 ? d : Vec2(-d);
 }
@@ -133,8 +131,8 @@ Vec3 world_point(const TraceDomain& domain, const FieldContext& context, const V
 Vec3 world_direction(const TraceDomain& domain, const FieldContext& context,
                      const Vec2& direction) {
   const ChartAxes axes = domain.axes(context.chart.face);
-  const std::complex<double> local = std::complex<double>(direction.x(), direction.y()) *
-                                     std::conj(chart_turn(context.chart));
+  const std::complex<double> local =
+      std::complex<double>(direction.x(), direction.y()) * std::conj(chart_turn(context.chart));
   return axes.x * local.real() + axes.y * local.imag();
 }
 

@@ -28,7 +28,7 @@ struct TraceDomain {
 /// [MK04] section 3.1. A plain value: saving and restoring it is copying.
 struct FieldContext {
   FaceChart chart;
-  std::array<Vec2, 3> arm;               ///< cross arm at each corner, unit
+  std::array<Vec2, 3> arm;                    ///< cross arm at each corner, unit
   std::array<std::complex<double>, 3> power;  ///< symmetric representation that is interpolated
   bool reliable = true;  ///< whether the corners agree enough to follow the field here
 };

@@ -70,7 +70,7 @@ double predicted_vertices(const std::vector<double>& areas, const Spacing& spaci
 }
 
 SpacingModel::SpacingModel(const TriMesh& mesh, const PrincipalField& field)
-    : diagonal_(mesh.diagonal), areas_(wedge_areas(mesh)) {
+    : mesh_(mesh), field_(field), areas_(wedge_areas(mesh)) {
   const Index n = mesh.wedge_count();
   curvature_along_.resize(n);
   curvature_across_.resize(n);
@@ -88,17 +88,35 @@ SpacingModel::SpacingModel(const TriMesh& mesh, const PrincipalField& field)
   });
 }
 
+void SpacingModel::bound_along(const std::vector<Index>& halfedges, double length) {
+  for (const Index h : halfedges) {
+    const Vec3 edge = mesh_.positions[mesh_.to(h)] - mesh_.positions[mesh_.from(h)];
+    for (const Index side : {h, mesh_.twin[h]}) {
+      if (side == kNone) continue;
+      for (const Index corner : {side, TriMesh::next(side)}) {
+        bounds_.emplace_back(key_of_arm(field_, mesh_.wedge_of(corner), edge), length);
+      }
+    }
+  }
+}
+
 Spacing SpacingModel::ungraded(double tolerance, const SpacingLimits& limits) const {
   Spacing spacing;
   spacing.along.resize(areas_.size());
   spacing.across.resize(areas_.size());
   for (std::size_t w = 0; w < areas_.size(); ++w) {
-    const double a = std::max(
-        limits.smallest, spacing_for_curvature(curvature_along_[w], tolerance, limits.largest));
-    const double b = std::max(
-        limits.smallest, spacing_for_curvature(curvature_across_[w], tolerance, limits.largest));
+    const auto distance = [&](double curvature) {
+      const double d = spacing_for_curvature(curvature, tolerance, limits.largest);
+      return std::max(limits.smallest, limits.scale * d);
+    };
+    const double a = distance(curvature_along_[w]);
+    const double b = distance(curvature_across_[w]);
     spacing.along[w] = std::min(a, limits.aspect_ratio * b);
     spacing.across[w] = std::min(b, limits.aspect_ratio * a);
+  }
+  for (const auto& [key, length] : bounds_) {
+    double& value = key % 2 == 0 ? spacing.along[key / 2] : spacing.across[key / 2];
+    value = std::min(value, std::max(1.0, limits.scale) * length);  // gives way to a wanted count
   }
   return spacing;
 }
@@ -133,7 +151,8 @@ void SpacingModel::grade(const SpacingLimits& limits, Spacing& spacing) const {
   for (Index key = 0; key < keys; ++key) {
     bool bounds = aspect[key / 2] * value[key] < value[key ^ 1];
     for (Index at = offsets_[key]; at < offsets_[key + 1] && !bounds; ++at) {
-      bounds = value[key] + limits.gradation * neighbours_[at].distance < value[neighbours_[at].key];
+      bounds =
+          value[key] + limits.gradation * neighbours_[at].distance < value[neighbours_[at].key];
     }
     if (bounds) queue.emplace(value[key], key);
   }
@@ -156,8 +175,8 @@ Spacing SpacingModel::for_tolerance(double tolerance, const SpacingLimits& limit
 
 double SpacingModel::tolerance_for_count(double count, const SpacingLimits& limits) const {
   constexpr double kAccuracy = 0.02;
-  const double least = std::log(1e-9 * diagonal_);
-  const double largest = std::log(0.2 * diagonal_);
+  const double least = std::log(1e-9 * mesh_.diagonal);
+  const double largest = std::log(0.2 * mesh_.diagonal);
   double low = least;
   double high = largest;
   for (int round = 0; round < 24; ++round) {  // without grading: cheap, and not far off

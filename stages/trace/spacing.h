@@ -17,8 +17,9 @@ struct Spacing {
 struct SpacingLimits {
   double smallest = 0;
   double largest = 0;
-  double gradation = 0.25;   ///< largest change of spacing per unit of distance on the surface
-  double aspect_ratio = 6;   ///< largest ratio of the two spacings of a point
+  double gradation = 0.25;  ///< largest change of spacing per unit of distance on the surface
+  double aspect_ratio = 6;  ///< largest ratio of the two spacings of a point
+  double scale = 1;         ///< factor on what the tolerance gives, within the other limits
 };
 
 /// Distance of lines that keeps a surface of curvature k within the tolerance ([A03], [MK04]
@@ -33,8 +34,11 @@ class SpacingModel {
  public:
   SpacingModel(const TriMesh& mesh, const PrincipalField& field);
 
-  /// Graded spacings for a tolerance (model units). The normal curvature along each arm of the cross
-  /// counts, so that nothing depends on which arm is called minimum.
+  /// Keeps the spacing along some half-edges, on both sides, below a length (model units).
+  void bound_along(const std::vector<Index>& halfedges, double length);
+
+  /// Graded spacings for a tolerance (model units). The normal curvature along each arm of the
+  /// cross counts, so that nothing depends on which arm is called minimum.
   [[nodiscard]] Spacing for_tolerance(double tolerance, const SpacingLimits& limits) const;
 
   /// The tolerance whose graded spacings predict `count` vertices, within 2 % where there is one.
@@ -52,10 +56,12 @@ class SpacingModel {
   [[nodiscard]] Spacing ungraded(double tolerance, const SpacingLimits& limits) const;
   void grade(const SpacingLimits& limits, Spacing& spacing) const;
 
-  double diagonal_;
-  std::vector<double> areas_;             ///< [W]
-  std::vector<double> curvature_along_;   ///< [W] |normal curvature| along the cross
-  std::vector<double> curvature_across_;  ///< [W]
+  const TriMesh& mesh_;
+  const PrincipalField& field_;
+  std::vector<std::pair<Index, double>> bounds_;  ///< keys and the largest value each may have
+  std::vector<double> areas_;                     ///< [W]
+  std::vector<double> curvature_along_;           ///< [W] |normal curvature| along the cross
+  std::vector<double> curvature_across_;          ///< [W]
   /// Keys are 2 w for the distance along the cross of wedge w and 2 w + 1 for the one across it.
   /// The arms of neighbouring crosses are matched by direction.
   std::vector<Index> offsets_;  ///< [2 W + 1]

@@ -16,10 +16,10 @@
 namespace strake {
 namespace {
 
-constexpr double kDefaultTolerance = 0.0005;  ///< share of the diagonal
+constexpr double kDefaultTolerance = 0.0005;       ///< share of the diagonal
 constexpr Length kDefaultMaxSpacing = percent(5);  ///< [MK04] section 3.2
-constexpr double kLargestCell = 3;            ///< in mean cell lengths, where a count is wanted
-constexpr double kSmallestSpacing = 1e-4;     ///< share of the diagonal
+constexpr double kLargestCell = 3;         ///< in mean cell lengths, where a count is wanted
+constexpr double kSmallestSpacing = 1e-4;  ///< share of the diagonal
 constexpr Index kSeedsPerComponent = 8;
 constexpr int kTriesPerSeed = 32;
 /// Vertices of the finished mesh per vertex that the spacing predicts; measured, and only the
@@ -103,7 +103,8 @@ class LineCollector {
       if (!tracer_.trace(seed, lines_.line_count(), line, spawned)) continue;
       add(line);
       queue.insert(queue.end(), spawned.begin(), spawned.end());
-      if (lines_.line_count() % 64 == 0) observer_.report("tracing lines", tracer_.coverage().covered_share());
+      if (lines_.line_count() % 64 == 0)
+        observer_.report("tracing lines", tracer_.coverage().covered_share());
     }
   }
 
@@ -144,7 +145,8 @@ TraceResult trace_lines(const TriMesh& mesh, const PrincipalField& field,
   limits.largest = options.max_spacing.value_or(kDefaultMaxSpacing).resolve(mesh.diagonal);
   double tolerance = kDefaultTolerance * mesh.diagonal;
   observer.report("choosing line distances", 0);
-  const SpacingModel model(mesh, field);
+  SpacingModel model(mesh, field);
+  bound_rings(mesh, model);
   if (options.tolerance) tolerance = options.tolerance->resolve(mesh.diagonal);
   if (options.vertices || options.faces) {
     const auto count = static_cast<double>(options.vertices ? *options.vertices : *options.faces);
@@ -154,9 +156,8 @@ TraceResult trace_lines(const TriMesh& mesh, const PrincipalField& field,
     if (!options.max_spacing) limits.largest = kLargestCell * std::sqrt(area / count);
     tolerance = model.tolerance_for_count(count / kCountPerPrediction, limits);
   }
+  limits.scale = options.spacing_scale;
   Spacing spacing = model.for_tolerance(tolerance, limits);
-  for (double& d : spacing.along) d *= options.spacing_scale;
-  for (double& d : spacing.across) d *= options.spacing_scale;
 
   const TraceDomain domain{mesh, field, spacing, face_normals(mesh)};
   TracerSettings settings;

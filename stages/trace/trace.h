@@ -10,14 +10,14 @@
 namespace strake {
 
 struct TraceOptions {
-  std::optional<Length> tolerance;        ///< approximation tolerance; default 0.05 %
-  std::optional<std::int64_t> vertices;   ///< wanted vertex count instead of a tolerance
-  std::optional<std::int64_t> faces;      ///< wanted face count instead of a tolerance
-  double spacing_scale = 1;               ///< factor on all spacings, for corrections of the count
-  std::optional<Length> max_spacing;      ///< cap on the distance between lines; default 5 %, or
-                                          ///< three mean cells where a count is wanted
-  double stop_fraction = 0.6;             ///< lines stop at this share of the wanted distance
-  std::int64_t seed = 1;                  ///< of the random generator that places the first seeds
+  std::optional<Length> tolerance;       ///< approximation tolerance; default 0.05 %
+  std::optional<std::int64_t> vertices;  ///< wanted vertex count instead of a tolerance
+  std::optional<std::int64_t> faces;     ///< wanted face count instead of a tolerance
+  double spacing_scale = 1;              ///< factor on all spacings, for corrections of the count
+  std::optional<Length> max_spacing;     ///< cap on the distance between lines; default 5 %, or
+                                         ///< three mean cells where a count is wanted
+  double stop_fraction = 0.6;            ///< lines stop at this share of the wanted distance
+  std::int64_t seed = 1;                 ///< of the random generator that places the first seeds
 
   OptionList declare();
 };
