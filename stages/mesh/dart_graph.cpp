@@ -52,8 +52,14 @@ void DartGraph::remove_edge(Index dart) {
   const Index after = next_[dart];
   const Index before_other = prev_[other];
   const Index after_other = next_[other];
-  if (before != other) link(before, after_other);
-  if (after != other) link(before_other, after);
+  if (after == dart) {  // a loop around nothing
+    link(before_other, after_other);
+  } else if (after_other == other) {
+    link(before, after);
+  } else {
+    if (before != other) link(before, after_other);
+    if (after != other) link(before_other, after);
+  }
   for (const Index d : {dart, other}) next_[d] = prev_[d] = kNone;
 }
 

@@ -1,0 +1,208 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "common/core/error.h"
+#include "common/geometry/poly_topology/poly_topology.h"
+#include "common/geometry/samples/samples.h"
+#include "common/geometry/topology/topology.h"
+#include "tests/support/chain.h"
+#include "tests/support/import_support.h"
+#include "tests/unit/mesh/line_sets.h"
+
+namespace strake {
+namespace {
+
+QuadMesh mesh_of(const TriMesh& surface, const LineSet& lines) {
+  SilentObserver observer;
+  return mesh_lines(surface, lines, MeshOptions{}, observer).quads;
+}
+
+/// A valid surface of at most five sides with the topology of the input, and sound provenance.
+void expect_same_topology(const TriMesh& surface, const QuadMesh& result) {
+  const PolyTopology topology = analyse(result.mesh);
+  EXPECT_TRUE(topology.is_oriented_manifold()) << topology.defects();
+  EXPECT_EQ(topology.unused_vertices, 0);
+  EXPECT_LE(topology.most_sides, 5);
+  const Census before = census(surface);
+  EXPECT_EQ(topology.components, before.components);
+  EXPECT_EQ(topology.boundary_loops, before.boundary_loops);
+  EXPECT_EQ(topology.genus, before.genus);
+  ASSERT_EQ(result.provenance.face.size(), result.mesh.positions.size());
+  ASSERT_EQ(result.provenance.barycentric.size(), result.mesh.positions.size());
+  for (std::size_t v = 0; v < result.mesh.positions.size(); ++v) {
+    const Index face = result.provenance.face[v];
+    ASSERT_TRUE(face >= 0 && face < surface.face_count());
+    const auto& b = result.provenance.barycentric[v];
+    EXPECT_NEAR(b[0] + b[1] + b[2], 1, 1e-12);
+    EXPECT_GE(*std::min_element(b.begin(), b.end()), -1e-12);
+  }
+}
+
+Vec3 foot(const TriMesh& surface, const QuadMesh& result, Index v) {
+  Vec3 p = surface.origin;
+  for (int i = 0; i < 3; ++i) {
+    p += result.provenance.barycentric[v][i] *
+         surface.positions[surface.faces[result.provenance.face[v]][i]];
+  }
+  return p;
+}
+
+TEST(MeshLines, GivesTheGridThatItIsGiven) {
+  SampleOptions options;
+  options.faces = 2000;
+  options.jitter = 1;
+  const TriMesh surface = support::import_tri_mesh(make_sample(SampleKind::plane, options));
+  constexpr int kColumns = 6;
+  constexpr int kRows = 4;
+  // Irrational places, so that no vertex lies on a line.
+  const auto column = [](int i) { return -1 + 2 * (i + 1 + 0.1 / std::sqrt(2)) / (kColumns + 1); };
+  const auto row = [](int j) { return -1 + 2 * (j + 1 - 0.1 / std::sqrt(3)) / (kRows + 1); };
+  LineSet lines;
+  for (int i = 0; i < kColumns; ++i) {
+    add_level_lines(
+        surface, [=](const Vec3& p) { return p.x() + surface.origin.x() - column(i); },
+        LineFamily::minimum, lines);
+  }
+  for (int j = 0; j < kRows; ++j) {
+    add_level_lines(
+        surface, [=](const Vec3& p) { return p.y() + surface.origin.y() - row(j); },
+        LineFamily::maximum, lines);
+  }
+  ASSERT_EQ(lines.line_count(), kColumns + kRows);
+  set_spacing(surface, 2.0 / (kColumns + 1), lines);
+  const QuadMesh result = mesh_of(surface, lines);
+  expect_same_topology(surface, result);
+  EXPECT_EQ(result.mesh.vertex_count(), (kColumns + 2) * (kRows + 2));
+  EXPECT_EQ(analyse(result.mesh).quads, (kColumns + 1) * (kRows + 1));
+  EXPECT_EQ(result.mesh.face_count(), (kColumns + 1) * (kRows + 1));
+
+  const auto at = [](int n, const auto& inner) {
+    std::vector<double> places = {-1, 1};
+    for (int i = 0; i < n; ++i) places.push_back(inner(i));
+    return places;
+  };
+  for (const double x : at(kColumns, column)) {
+    for (const double y : at(kRows, row)) {
+      const Vec3 corner(x, y, 0);
+      Index found = kNone;
+      for (Index v = 0; v < result.mesh.vertex_count(); ++v) {
+        if ((result.mesh.positions[v] - corner).norm() < 1e-12) found = v;
+      }
+      ASSERT_NE(found, kNone) << "no vertex at " << corner.transpose();
+      EXPECT_LT((foot(surface, result, found) - corner).norm(), 1e-12);
+      const auto& named = result.provenance.lines[found];
+      if (std::abs(x) < 1 && std::abs(y) < 1) {
+        ASSERT_TRUE(named[0] != kNone && named[1] != kNone);
+        EXPECT_NE(named[0] < kColumns, named[1] < kColumns) << "a column and a row cross there";
+      }
+    }
+  }
+}
+
+struct Case {
+  SampleKind kind;
+  std::int64_t vertices;
+};
+
+class Subsets : public ::testing::TestWithParam<Case> {};
+
+INSTANTIATE_TEST_SUITE_P(
+    Samples, Subsets,
+    ::testing::Values(Case{SampleKind::sphere, 300}, Case{SampleKind::torus, 400},
+                      Case{SampleKind::open_cylinder, 300}, Case{SampleKind::cylinder, 300},
+                      Case{SampleKind::ellipsoid, 300}, Case{SampleKind::hyperboloid, 300},
+                      Case{SampleKind::saddle, 300}, Case{SampleKind::part, 1500}),
+    [](const auto& test) { return sample_names()[static_cast<std::size_t>(test.param.kind)]; });
+
+TEST_P(Subsets, OfTracedLinesKeepTheTopology) {
+  SampleOptions sample;
+  sample.faces = 8000;
+  const support::Prepared prepared = support::prepare(make_sample(GetParam().kind, sample));
+  TraceOptions options;
+  options.vertices = GetParam().vertices;
+  const LineSet lines = support::trace(prepared, options);
+  std::mt19937_64 random(1);
+  for (const double kept : {1.0, 0.8, 0.5, 0.3, 0.1, 0.02, 0.0}) {
+    for (int round = 0; round < 3; ++round) {
+      SCOPED_TRACE(::testing::Message() << "share of lines kept " << kept << ", round " << round);
+      const LineSet some = subset(lines, [&](Index l) {
+        const bool barrier =
+            lines.family[l] == LineFamily::boundary || lines.family[l] == LineFamily::feature;
+        return barrier || std::uniform_real_distribution<double>(0, 1)(random) < kept;
+      });
+      ASSERT_NO_THROW(expect_same_topology(prepared.mesh, mesh_of(prepared.mesh, some)));
+      if (kept == 0.0 || kept == 1.0) break;
+    }
+  }
+}
+
+TEST(MeshLines, KeepsOneFamilyAlone) {
+  SampleOptions sample;
+  sample.faces = 4000;
+  for (const SampleKind kind : {SampleKind::torus, SampleKind::open_cylinder}) {
+    const support::Prepared prepared = support::prepare(make_sample(kind, sample));
+    TraceOptions options;
+    options.vertices = 300;
+    const LineSet lines = support::trace(prepared, options);
+    for (const LineFamily family : {LineFamily::minimum, LineFamily::maximum}) {
+      const LineSet one = subset(lines, [&](Index l) { return lines.family[l] != family; });
+      ASSERT_NO_THROW(expect_same_topology(prepared.mesh, mesh_of(prepared.mesh, one)));
+    }
+  }
+}
+
+TEST(MeshLines, KeepsComponentsWithoutAnyLine) {
+  SampleOptions sample;
+  sample.faces = 2000;
+  PolyMesh soup = make_sample(SampleKind::torus, sample);
+  const PolyMesh other = make_sample(SampleKind::sphere, sample);
+  const Index shift = soup.vertex_count();
+  for (const Vec3& p : other.positions) soup.positions.push_back(p + Vec3(5, 0, 0));
+  for (Index f = 0; f < other.face_count(); ++f) {
+    std::vector<Index> face(other.face(f).begin(), other.face(f).end());
+    for (Index& v : face) v += shift;
+    soup.add_face(face);
+  }
+  const support::Prepared prepared = support::prepare(soup);
+  ASSERT_EQ(census(prepared.mesh).components, 2);
+  TraceOptions options;
+  options.vertices = 600;
+  const LineSet lines = support::trace(prepared, options);
+  const std::vector<Index> component = face_components(prepared.mesh);
+  for (const Index bare : {0, 1}) {
+    const LineSet some = subset(lines, [&](Index l) {
+      const LinePoint& p = lines.points[lines.offsets[l]];
+      return component[TriMesh::face_of(p.halfedge)] != bare;
+    });
+    ASSERT_LT(some.line_count(), lines.line_count());
+    ASSERT_NO_THROW(expect_same_topology(prepared.mesh, mesh_of(prepared.mesh, some)));
+  }
+}
+
+TEST(MeshLines, RefusesChordsThatDoNotJoinTwoSidesOfTheirFace) {
+  SampleOptions sample;
+  sample.faces = 500;
+  const TriMesh surface = support::import_tri_mesh(make_sample(SampleKind::sphere, sample));
+  const auto expect_refusal = [&](const std::vector<LinePoint>& points, Index face) {
+    LineSet lines;
+    add_line(lines, points, {face});
+    set_spacing(surface, 0.2, lines);
+    EXPECT_THROW(mesh_of(surface, lines), PreconditionError);
+  };
+  expect_refusal({{0, 0.3}, {0, 0.6}}, 0);            // along an edge
+  expect_refusal({{0, 0.3}, {1, 0.6}}, 1);            // of another face
+  expect_refusal({{0, 0.0}, {0, 0.6}}, 0);            // corner to an edge beside it
+  expect_refusal({{0, 0.0}, {2, 0.6}}, 0);            // to the other one
+  expect_refusal({{0, 0.0}, {1, 0.0}}, 0);            // corner to corner
+  expect_refusal({{0, 0.5}, {3 * 200 + 1, 0.5}}, 0);  // far apart
+  LineSet proper;
+  add_line(proper, {{0, 0.3}, {1, 0.6}}, {0});
+  set_spacing(surface, 0.2, proper);
+  EXPECT_NO_THROW(mesh_of(surface, proper));
+}
+
+}  // namespace
+}  // namespace strake
