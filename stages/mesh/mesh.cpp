@@ -6,6 +6,7 @@
 #include "common/core/error.h"
 #include "common/geometry/poly_topology/poly_topology.h"
 #include "common/geometry/topology/topology.h"
+#include "stages/mesh/halfedge_check.h"
 #include "stages/mesh/overlay.h"
 #include "stages/mesh/partition.h"
 #include "stages/mesh/polygon_graph.h"
@@ -118,6 +119,10 @@ void check_result(const TriMesh& mesh, const PolyMesh& quads, Index max_sides, R
   if (!after.is_oriented_manifold()) {
     throw AlgorithmError("the mesh built from the lines is not an oriented manifold: " +
                          after.defects() + "; please report this model");
+  }
+  if (const std::string defect = halfedge_defect(quads); !defect.empty()) {
+    throw AlgorithmError("the mesh built from the lines has no half-edge structure: " + defect +
+                         "; please report this model");
   }
   if (after.most_sides > max_sides) {
     throw AlgorithmError("a face has " + std::to_string(after.most_sides) + " sides where " +

@@ -28,7 +28,7 @@ struct TracedLine {
 };
 
 struct TracerSettings {
-  double stop_fraction = 0.6;   ///< of the wanted distance, below which a line stops
+  double stop_fraction = 0.5;   ///< of the wanted distance, below which a line stops
   double seed_fraction = 0.8;   ///< of the wanted distance, below which a seed is refused
   double cover_fraction = 0.9;  ///< of the wanted distance, within which a point counts as covered
 };

@@ -16,7 +16,7 @@ struct TraceOptions {
   double spacing_scale = 1;              ///< factor on all spacings, for corrections of the count
   std::optional<Length> max_spacing;     ///< cap on the distance between lines; default 5 %, or
                                          ///< three mean cells where a count is wanted
-  double stop_fraction = 0.6;            ///< lines stop at this share of the wanted distance
+  double stop_fraction = 0.5;            ///< lines stop at this share of the wanted distance
   std::int64_t seed = 1;                 ///< of the random generator that places the first seeds
 
   OptionList declare();
