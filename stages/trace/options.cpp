@@ -7,7 +7,7 @@ OptionList TraceOptions::declare() {
       {.name = "tolerance",
        .target = &tolerance,
        .unit = "length",
-       .help = "Wanted distance between surface and result; 0.05% where no count is given either.",
+       .help = "Wanted distance between surface and result; 0.1% where no count is given either.",
        .min = 1e-6,
        .max = 0.2},
       {.name = "vertices",

@@ -16,15 +16,14 @@
 namespace strake {
 namespace {
 
-constexpr double kDefaultTolerance = 0.0005;       ///< share of the diagonal
+constexpr Length kDefaultTolerance = percent(0.1);
+/// The errors of the two families of lines add up in the middle of a cell.
+constexpr double kShareOfFamily = 0.5;
 constexpr Length kDefaultMaxSpacing = percent(5);  ///< [MK04] section 3.2
 constexpr double kLargestCell = 3;         ///< in mean cell lengths, where a count is wanted
 constexpr double kSmallestSpacing = 1e-4;  ///< share of the diagonal
 constexpr Index kSeedsPerComponent = 8;
 constexpr int kTriesPerSeed = 32;
-/// Vertices of the finished mesh per vertex that the spacing predicts; measured, and only the
-/// starting point of the correction for a wanted count.
-constexpr double kCountPerPrediction = 1.0;
 
 /// How strongly the directions at a face can be trusted: relative anisotropy times confidence.
 double reliability(const TriMesh& mesh, const PrincipalField& field, Index f) {
@@ -133,67 +132,75 @@ class LineCollector {
   std::size_t tried_ = 0;
 };
 
-}  // namespace
-
-TraceResult trace_lines(const TriMesh& mesh, const PrincipalField& field,
-                        const TraceOptions& options, Observer& observer) {
+/// Spacings as the options ask for them, and the tolerance they stand for.
+std::pair<Spacing, double> choose_spacing(const TriMesh& mesh, const PrincipalField& field,
+                                          const TraceOptions& options) {
   const int wanted = int(options.tolerance.has_value()) + int(options.vertices.has_value()) +
                      int(options.faces.has_value());
   if (wanted > 1) throw UsageError("give only one of --tolerance, --vertices and --faces");
   SpacingLimits limits;
   limits.smallest = kSmallestSpacing * mesh.diagonal;
   limits.largest = options.max_spacing.value_or(kDefaultMaxSpacing).resolve(mesh.diagonal);
-  double tolerance = kDefaultTolerance * mesh.diagonal;
-  observer.report("choosing line distances", 0);
   SpacingModel model(mesh, field);
   bound_rings(mesh, model);
-  if (options.tolerance) tolerance = options.tolerance->resolve(mesh.diagonal);
+  double family_tolerance =
+      kShareOfFamily * options.tolerance.value_or(kDefaultTolerance).resolve(mesh.diagonal);
   if (options.vertices || options.faces) {
     const auto count = static_cast<double>(options.vertices ? *options.vertices : *options.faces);
     double area = 0;
     for (const double a : model.areas()) area += a;
     // Relative to the mean cell: flats may be coarse, but not out of proportion.
     if (!options.max_spacing) limits.largest = kLargestCell * std::sqrt(area / count);
-    tolerance = model.tolerance_for_count(count / kCountPerPrediction, limits);
+    family_tolerance = model.tolerance_for_count(count, limits);
   }
   limits.scale = options.spacing_scale;
-  Spacing spacing = model.for_tolerance(tolerance, limits);
+  return {model.for_tolerance(family_tolerance, limits), family_tolerance / kShareOfFamily};
+}
 
+/// Seeds at corners, along feature and boundary lines, and at random, in the order to be tried.
+std::vector<Seed> first_seeds(const TraceDomain& domain, const std::vector<BarrierLine>& barriers,
+                              const std::vector<std::uint8_t>& flags, std::int64_t random_seed) {
+  std::vector<Seed> seeds;
+  seed_at_corners(domain, flags, seeds);
+  for (const BarrierLine& line : barriers) seed_along(domain, line, seeds);
+  const std::vector<Seed> anisotropic = random_seeds(domain, random_seed);
+  seeds.insert(seeds.end(), anisotropic.begin(), anisotropic.end());
+  return seeds;
+}
+
+}  // namespace
+
+TraceResult trace_lines(const TriMesh& mesh, const PrincipalField& field,
+                        const TraceOptions& options, Observer& observer) {
+  observer.report("choosing line distances", 0);
+  auto [spacing, tolerance] = choose_spacing(mesh, field, options);
   const TraceDomain domain{mesh, field, spacing, face_normals(mesh)};
   TracerSettings settings;
   settings.stop_fraction = options.stop_fraction;
-  const std::vector<BarrierLine> feature_lines = barrier_lines(domain);
-  const std::vector<std::uint8_t> flags = barrier_flags(mesh, feature_lines);
+  const std::vector<BarrierLine> barriers = barrier_lines(domain);
+  const std::vector<std::uint8_t> flags = barrier_flags(mesh, barriers);
   LineCollector collector(domain, flags, settings, observer);
-  std::vector<Seed> seeds;
-  for (const BarrierLine& line : feature_lines) {
-    collector.add(to_traced_line(line));
-    seed_along(domain, line, seeds);
-  }
-  const Index barriers = collector.lines().line_count();
-  std::vector<Seed> corner_seeds;
-  seed_at_corners(domain, flags, corner_seeds);
-  seeds.insert(seeds.begin(), corner_seeds.begin(), corner_seeds.end());
-  const std::vector<Seed> anisotropic = random_seeds(domain, options.seed);
-  seeds.insert(seeds.end(), anisotropic.begin(), anisotropic.end());
-  collector.grow(seeds);
+  for (const BarrierLine& line : barriers) collector.add(to_traced_line(line));
+  collector.grow(first_seeds(domain, barriers, flags, options.seed));
   collector.saturate();
 
   TraceResult result;
   result.lines = std::move(collector.lines());
   result.lines.mesh_id = mesh.id;
-  result.lines.spacing_along_min = std::move(spacing.along);
-  result.lines.spacing_along_max = std::move(spacing.across);
   Index closed = 0;
-  for (Index l = barriers; l < result.lines.line_count(); ++l) closed += result.lines.is_closed(l);
+  for (Index l = static_cast<Index>(barriers.size()); l < result.lines.line_count(); ++l) {
+    closed += result.lines.is_closed(l);
+  }
   result.report.set("trace.tolerance", tolerance);
   result.report.set("trace.lines", static_cast<std::int64_t>(result.lines.line_count()));
-  result.report.set("trace.feature_and_boundary_lines", static_cast<std::int64_t>(barriers));
+  result.report.set("trace.feature_and_boundary_lines", barriers.size());
   result.report.set("trace.closed_lines", static_cast<std::int64_t>(closed));
   result.report.set("trace.crossings", result.lines.points.size());
   result.report.set("trace.seeds_tried", collector.tried());
   result.report.set("trace.proximity_queries",
                     static_cast<std::int64_t>(collector.tracer().query_count()));
+  result.lines.spacing_along_min = std::move(spacing.along);
+  result.lines.spacing_along_max = std::move(spacing.across);
   return result;
 }
 

@@ -10,7 +10,7 @@
 namespace strake {
 
 struct TraceOptions {
-  std::optional<Length> tolerance;       ///< approximation tolerance; default 0.05 %
+  std::optional<Length> tolerance;       ///< approximation tolerance; default 0.1 %
   std::optional<std::int64_t> vertices;  ///< wanted vertex count instead of a tolerance
   std::optional<std::int64_t> faces;     ///< wanted face count instead of a tolerance
   double spacing_scale = 1;              ///< factor on all spacings, for corrections of the count
