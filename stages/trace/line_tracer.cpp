@@ -14,6 +14,8 @@ constexpr double kVertexTolerance = 1e-3;
 constexpr double kStepShare = 0.25;     ///< integration step as a share of the line distance
 constexpr double kOwnSkip = 2.0;        ///< stop distances along itself that a line does not see
 constexpr int kMaxSteps = 200000;       ///< hard bound on one half line
+constexpr int kMaxWalkFaces = 1000;     ///< hard bound on one straight walk
+constexpr double kGapRange = 2.0;       ///< line distances within which a gap has its sides
 constexpr int kMaxClosingFaces = 2000;  ///< hard bound on the way to the own start
 constexpr double kCloseRange = 1.5;     ///< line distances from which a line looks for its start
 const double kCloseCosine = std::cos(25 * M_PI / 180);
@@ -40,7 +42,7 @@ struct LineTracer::Head {
   double arc = 0;            ///< length from the seed
   double sign = 1;           ///< -1 on the backward half
   bool from_corner = false;  ///< whether the line starts at a vertex
-  double to_spawn = 1;       ///< line distances until the next seed for a crossing line
+  double measure = 0;        ///< length from the seed in units of the distance of crossing lines
   LinePoint last;            ///< last recorded point; halfedge kNone while in the seed's face
   Vec3 last_position;        ///< world, of `last` or the seed
 };
@@ -51,6 +53,8 @@ struct LineTracer::HalfLine {
   std::vector<Index> faces;  ///< of the chord that leads to each point
   std::vector<LineFamily> families;
   LineEnd end = LineEnd::stuck;
+  std::vector<Seed> candidates;  ///< for lines that cross this one, one per step
+  std::vector<double> measures;  ///< where they lie, in units of the wanted distance
   Index seed_face = kNone;
   Vec3 seed_position;
   Vec3 seed_direction;  ///< world, as the half starts
@@ -123,9 +127,21 @@ ProximityHit LineTracer::look_around(const Head& head, double fraction,
   return proximity_.query(query);
 }
 
-bool LineTracer::fits(const Head& head) {
+/// Whether a line can start here without coming too close to one of its direction.
+bool LineTracer::fits(const Head& head, double fraction) {
   const LocalSpacing spacing = spacing_at(domain_, head.context, head.point, head.heading);
-  return !look_around(head, settings_.seed_fraction, spacing).conflict;
+  return !look_around(head, fraction, spacing).conflict;
+}
+
+/// Distances to the lines of the same direction on the left and right, at most `reach`.
+std::pair<double, double> LineTracer::gap_beside(const Head& head, double reach) {
+  ProximityQuery query;
+  query.face = head.context.chart.face;
+  query.point = world_point(domain_, head.context, head.point);
+  query.direction = world_direction(domain_, head.context, head.heading);
+  query.radius = reach;
+  const Vec2 left(-head.heading.y(), head.heading.x());
+  return proximity_.distances_beside(query, world_direction(domain_, head.context, left));
 }
 
 void LineTracer::cover(const Head& head, const LocalSpacing& spacing) {
@@ -134,11 +150,10 @@ void LineTracer::cover(const Head& head, const LocalSpacing& spacing) {
                  settings_.cover_fraction * spacing.to_neighbours);
 }
 
-void LineTracer::spawn(Head& head, const LocalSpacing& spacing, double step,
-                       std::vector<Seed>& spawned) const {
-  head.to_spawn -= step / spacing.along;
-  if (head.to_spawn > 0) return;
-  head.to_spawn += 1;
+/// Remembers the present point as a place where a crossing line could start.
+void LineTracer::note_candidate(Head& head, const LocalSpacing& spacing, double step,
+                                HalfLine& half) const {
+  head.measure += step / spacing.along;
   if (!head.context.reliable) return;  // seeds only where directions can be trusted
   Seed seed;
   seed.face = head.context.chart.face;
@@ -146,27 +161,73 @@ void LineTracer::spawn(Head& head, const LocalSpacing& spacing, double step,
   seed.barycentric /= seed.barycentric.sum();
   seed.direction =
       world_direction(domain_, head.context, Vec2(-head.heading.y(), head.heading.x()));
-  spawned.push_back(seed);
+  half.candidates.push_back(seed);
+  half.measures.push_back(head.measure);
+}
+
+/// Seeds at their wanted distances along a half line; evenly spread where the line is closed.
+void LineTracer::spawn(const HalfLine& half, std::vector<Seed>& spawned) {
+  if (half.measures.empty()) return;
+  const double total = half.measures.back();
+  const bool closed = half.end == LineEnd::closed;
+  const double distance = closed ? total / std::max(1.0, std::round(total)) : 1.0;
+  double next = distance;
+  for (std::size_t i = 0; i < half.measures.size(); ++i) {
+    if (half.measures[i] < next || (closed && next > total - 0.5 * distance)) continue;
+    spawned.push_back(half.candidates[i]);
+    next += distance * std::max(1.0, std::floor((half.measures[i] - next) / distance + 1));
+  }
+}
+
+/// Moves a point along a straight geodesic, up to the first barrier.
+void LineTracer::walk_straight(const Vec2& displacement, std::array<Index, 2> closed,
+                               FieldContext& context, Vec2& point) const {
+  Vec2 rest = displacement;
+  for (int guard = 0; guard < kMaxWalkFaces; ++guard) {
+    const auto exit = find_exit(context.chart, point, rest, closed);
+    if (!exit) {
+      point += rest;
+      return;
+    }
+    point += exit->step * rest;
+    if (domain_.mesh.is_barrier(exit->halfedge)) return;
+    rest *= 1 - exit->step;
+    context = unfold_context(domain_, context, exit->halfedge);
+    closed = {domain_.mesh.twin[exit->halfedge], kNone};
+  }
+}
+
+Seed LineTracer::centred(const Seed& seed) {
+  const Head head = start_head(seed, true);
+  const LocalSpacing spacing = spacing_at(domain_, head.context, head.point, head.heading);
+  const double wanted = spacing.to_neighbours;
+  const double reach = kGapRange * wanted;
+  const auto [to_left, to_right] = gap_beside(head, reach);
+  const bool has_left = to_left < reach;
+  const bool has_right = to_right < reach;
+  const Vec2 left(-head.heading.y(), head.heading.x());
+  double shift = 0;
+  if (has_left && has_right) {
+    shift = 0.5 * (to_left - to_right);
+  } else if (has_left || has_right) {
+    shift = has_left ? to_left - wanted : wanted - to_right;
+  }
+  FieldContext context = head.context;
+  Vec2 point = head.point;
+  walk_straight(left * shift, {kNone, kNone}, context, point);
+  Seed moved = seed;
+  moved.face = context.chart.face;
+  moved.barycentric = context.chart.barycentric(point).cwiseMax(1e-6);
+  moved.barycentric /= moved.barycentric.sum();
+  moved.direction = world_direction(domain_, context, head.heading);
+  return moved;
 }
 
 Vec2 LineTracer::runge_kutta(const Head& head, double step) const {
   const auto direction_after = [&](const Vec2& displacement) {
     FieldContext context = head.context;  // the saved context; predictions work on a copy
     Vec2 point = head.point;
-    Vec2 rest = displacement;
-    std::array<Index, 2> closed = head.closed;
-    for (int guard = 0; guard < 64; ++guard) {
-      const auto exit = find_exit(context.chart, point, rest, closed);
-      if (!exit) {
-        point += rest;
-        break;
-      }
-      point += exit->step * rest;
-      if (domain_.mesh.is_barrier(exit->halfedge)) break;
-      rest *= 1 - exit->step;
-      context = unfold_context(domain_, context, exit->halfedge);
-      closed = {domain_.mesh.twin[exit->halfedge], kNone};
-    }
+    walk_straight(displacement, head.closed, context, point);
     return field_direction(domain_, context, point, displacement.normalized(), head.family);
   };
   const Vec2 k1 = field_direction(domain_, head.context, head.point, head.heading, head.family);
@@ -341,7 +402,7 @@ bool LineTracer::try_close(const Head& start, const LocalSpacing& spacing, doubl
   return false;
 }
 
-void LineTracer::trace_half(Head head, bool may_close, HalfLine& half, std::vector<Seed>& spawned) {
+void LineTracer::trace_half(Head head, bool may_close, HalfLine& half) {
   half.end = LineEnd::step_limit;
   int standing = 0;
   for (int step = 0; step < kMaxSteps; ++step) {
@@ -363,7 +424,7 @@ void LineTracer::trace_half(Head head, bool may_close, HalfLine& half, std::vect
     head.heading = head.context.reliable ? direction : head.trusted;
     const double before = head.arc;
     if (!advance(head, head.heading * length, half)) return;
-    spawn(head, spacing, head.arc - before, spawned);
+    note_candidate(head, spacing, head.arc - before, half);
     standing = head.arc - before > 1e-3 * length ? 0 : standing + 1;
     if (standing > 4) {
       half.end = LineEnd::stuck;
@@ -409,7 +470,8 @@ bool LineTracer::trace(const Seed& seed, Index line, TracedLine& result,
                        std::vector<Seed>& spawned) {
   Head head = start_head(seed, true);
   head.line = line;
-  if (!fits(head)) return false;
+  const double fraction = seed.fills_gap ? settings_.gap_fraction : settings_.seed_fraction;
+  if (!fits(head, fraction)) return false;
   const std::size_t segments_before = proximity_.segment_count();
   const std::size_t spawned_before = spawned.size();
   HalfLine forward;
@@ -420,7 +482,8 @@ bool LineTracer::trace(const Seed& seed, Index line, TracedLine& result,
   forward.seed_direction = world_direction(domain_, head.context, head.heading);
   const LocalSpacing spacing = spacing_at(domain_, head.context, head.point, head.heading);
   result.family = head.family;
-  trace_half(head, !anchored, forward, spawned);
+  trace_half(head, !anchored, forward);
+  spawn(forward, spawned);
   const bool has_other_side = !anchored || (!is_vertex_point(seed.anchor) &&
                                             !domain_.mesh.is_boundary(seed.anchor.halfedge));
   if (forward.end != LineEnd::closed && has_other_side) {
@@ -432,8 +495,9 @@ bool LineTracer::trace(const Seed& seed, Index line, TracedLine& result,
       back.family = head.family;
     }
     backward.seed_face = back.context.chart.face;
-    if (!anchored || fits(back)) {
-      trace_half(back, false, backward, spawned);
+    if (!anchored || fits(back, fraction)) {
+      trace_half(back, false, backward);
+      spawn(backward, spawned);
     } else {
       backward.end = LineEnd::feature;
     }

@@ -14,6 +14,8 @@ struct Seed {
   Vec3 barycentric = Vec3::Constant(1.0 / 3);
   Vec3 direction;    ///< world; the line takes the closest arm of the field
   LinePoint anchor;  ///< edge or vertex point the line starts from; halfedge kNone inside a face
+  bool fills_gap =
+      false;  ///< not at its wanted distance from another line, but where one is missing
 };
 
 /// A finished line, in the representation of LineSet.
@@ -30,6 +32,7 @@ struct TracedLine {
 struct TracerSettings {
   double stop_fraction = 0.5;   ///< of the wanted distance, below which a line stops
   double seed_fraction = 0.8;   ///< of the wanted distance, below which a seed is refused
+  double gap_fraction = 0.95;   ///< likewise, for seeds that fill gaps
   double cover_fraction = 0.9;  ///< of the wanted distance, within which a point counts as covered
 };
 
@@ -45,6 +48,10 @@ class LineTracer {
   /// \return false where the seed is too close to a line of its direction, or the line too short
   bool trace(const Seed& seed, Index line, TracedLine& result, std::vector<Seed>& spawned);
 
+  /// The seed moved sideways into the middle between the lines of its direction beside it, or to
+  /// the wanted distance from the only one: lines that fill gaps are then as even as possible.
+  [[nodiscard]] Seed centred(const Seed& seed);
+
   [[nodiscard]] const Coverage& coverage() const { return coverage_; }
   [[nodiscard]] std::uint64_t query_count() const { return proximity_.query_count(); }
 
@@ -53,12 +60,15 @@ class LineTracer {
   struct HalfLine;
 
   Head start_head(const Seed& seed, bool forward) const;
-  bool fits(const Head& head);
+  bool fits(const Head& head, double fraction);
+  std::pair<double, double> gap_beside(const Head& head, double reach);
   ProximityHit look_around(const Head& head, double fraction, const LocalSpacing& spacing);
   void cover(const Head& head, const LocalSpacing& spacing);
-  void spawn(Head& head, const LocalSpacing& spacing, double step,
-             std::vector<Seed>& spawned) const;
-  void trace_half(Head head, bool may_close, HalfLine& half, std::vector<Seed>& spawned);
+  void note_candidate(Head& head, const LocalSpacing& spacing, double step, HalfLine& half) const;
+  static void spawn(const HalfLine& half, std::vector<Seed>& spawned);
+  void trace_half(Head head, bool may_close, HalfLine& half);
+  void walk_straight(const Vec2& displacement, std::array<Index, 2> closed, FieldContext& context,
+                     Vec2& point) const;
   Vec2 runge_kutta(const Head& head, double step) const;
   bool advance(Head& head, Vec2 displacement, HalfLine& half);
   bool pass_vertex(Head& head, Index corner, const Vec2& direction, HalfLine& half);

@@ -6,11 +6,16 @@
 namespace strake {
 namespace {
 
-double squared_distance(const Vec3& p, const Vec3& a, const Vec3& b) {
+/// From p to the nearest point of segment a-b.
+Vec3 way_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   const Vec3 d = b - a;
   const double length = d.squaredNorm();
   const double t = length > 0 ? std::clamp((p - a).dot(d) / length, 0.0, 1.0) : 0.0;
-  return (a + t * d - p).squaredNorm();
+  return a + t * d - p;
+}
+
+double squared_distance(const Vec3& p, const Vec3& a, const Vec3& b) {
+  return way_to_segment(p, a, b).squaredNorm();
 }
 
 }  // namespace
@@ -96,6 +101,31 @@ ProximityHit ProximityIndex::query(const ProximityQuery& query) {
   }
   hit.distance = std::sqrt(best);
   return hit;
+}
+
+std::pair<double, double> ProximityIndex::distances_beside(const ProximityQuery& query,
+                                                           const Vec3& left) {
+  ++query_count_;
+  grow_cell(query.face, query.point, query.radius);
+  std::pair<double, double> nearest{query.radius, query.radius};
+  const auto consider = [&](const Vec3& a, const Vec3& b, const Vec3& direction) {
+    if (!(std::abs(direction.dot(query.direction)) > M_SQRT1_2)) return;
+    const Vec3 way = way_to_segment(query.point, a, b);
+    double& side = way.dot(left) > 0 ? nearest.first : nearest.second;
+    side = std::min(side, way.norm());
+  };
+  for (const Index f : cell_) {
+    for (Index s = head_[f]; s != kNone; s = segments_[s].next) {
+      consider(segments_[s].a, segments_[s].b, segments_[s].direction);
+    }
+    for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+      if (barriers_[h] == 0) continue;
+      const Vec3& a = mesh_.positions[mesh_.from(h)];
+      const Vec3& b = mesh_.positions[mesh_.to(h)];
+      consider(a, b, (b - a).normalized());
+    }
+  }
+  return nearest;
 }
 
 }  // namespace strake

@@ -54,6 +54,9 @@ class ProximityIndex {
   [[nodiscard]] std::size_t segment_count() const { return segments_.size(); }
 
   ProximityHit query(const ProximityQuery& query);
+  /// Distances to the nearest line of the same direction on the side that `left` points to and on
+  /// the other one; the radius where there is none. Barriers count.
+  std::pair<double, double> distances_beside(const ProximityQuery& query, const Vec3& left);
   /// Whether `face` was in the cell of the last query.
   [[nodiscard]] bool in_cell(Index face) const { return stamp_[face] == current_; }
 

@@ -116,7 +116,8 @@ class LineCollector {
         seed.face = gap.face;
         seed.barycentric = gap.barycentric;
         seed.direction = gap.direction;
-        grow({seed});
+        seed.fills_gap = true;
+        grow({tracer_.centred(seed)});
       });
       if (f % 1024 == 0) observer_.report("filling gaps", double(f) / faces);
     }
