@@ -11,9 +11,9 @@ namespace strake {
 namespace {
 
 /// Free ends shorter than this many line distances are left out.
-constexpr double kShortestFreeEnd = 1.5;
+constexpr double kShortestFreeEnd = 2.5;
 /// Groups of joined lines shorter than this in all are left out, with and without a ring.
-constexpr double kSmallestTree = 3;
+constexpr double kSmallestTree = 6;
 constexpr double kSmallestRing = 0.25;
 /// Lines that cross a ring: three, with some room for the distance at which lines stop.
 constexpr double kFewestOnRing = 3.5;

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -17,6 +18,7 @@
 #include "common/geometry/poly_topology/poly_topology.h"
 #include "common/geometry/samples/samples.h"
 #include "tests/support/chain.h"
+#include "tests/support/matchers.h"
 #include "tests/support/mesh_support.h"
 
 namespace strake {
@@ -35,6 +37,12 @@ Result remesh(const PolyMesh& soup, const TraceOptions& options = {}) {
   Result result;
   result.lines = support::trace(prepared, options);
   result.quads = support::mesh(prepared, result.lines);
+  return result;
+}
+
+Eigen::AlignedBox3d box(const PolyMesh& mesh) {
+  Eigen::AlignedBox3d result;
+  for (const Vec3& p : mesh.positions) result.extend(p);
   return result;
 }
 
@@ -104,6 +112,12 @@ class ChainInvariance : public ::testing::TestWithParam<SampleKind> {
       return static_cast<double>(t.quads) / t.faces;
     };
     EXPECT_NEAR(quad_share(after), quad_share(before), kQuadShareTolerance);
+    // It is where the input is: boxes of vertices on the surface differ by less than a cell.
+    const Eigen::AlignedBox3d input = box(moved);
+    const Eigen::AlignedBox3d output = box(result.quads.mesh);
+    const double cell = 0.05 * input.diagonal().norm();
+    EXPECT_TRUE(support::near(output.min(), input.min(), cell));
+    EXPECT_TRUE(support::near(output.max(), input.max(), cell));
   }
 
   PolyMesh soup_;
