@@ -96,21 +96,20 @@ class LineCollector {
     while (!queue.empty()) {
       const Seed seed = queue.front();
       queue.pop_front();
-      ++tried_;
+      // Also while gaps are filled, so that a run can be interrupted at any time.
+      if (++tried_ % 64 == 0) observer_.report(phase_, tracer_.coverage().covered_share());
       spawned.clear();
       TracedLine line;
       if (!tracer_.trace(seed, lines_.line_count(), line, spawned)) continue;
       add(line);
       queue.insert(queue.end(), spawned.begin(), spawned.end());
-      if (lines_.line_count() % 64 == 0)
-        observer_.report("tracing lines", tracer_.coverage().covered_share());
     }
   }
 
   /// Seeds wherever a direction of the cross has no line within reach.
   void saturate() {
-    const Index faces = domain_.mesh.face_count();
-    for (Index f = 0; f < faces; ++f) {
+    phase_ = "filling gaps";
+    for (Index f = 0; f < domain_.mesh.face_count(); ++f) {
       tracer_.coverage().for_gaps(f, [&](const Coverage::Gap& gap) {
         Seed seed;
         seed.face = gap.face;
@@ -119,7 +118,6 @@ class LineCollector {
         seed.fills_gap = true;
         grow({tracer_.centred(seed)});
       });
-      if (f % 1024 == 0) observer_.report("filling gaps", double(f) / faces);
     }
   }
 
@@ -131,6 +129,7 @@ class LineCollector {
   Observer& observer_;
   LineSet lines_;
   std::size_t tried_ = 0;
+  const char* phase_ = "tracing lines";
 };
 
 /// Spacings as the options ask for them, and the tolerance they stand for.
