@@ -90,6 +90,34 @@ TEST_F(LinesOnAPlane, SpawnCrossingLinesAtTheirDistance) {
   EXPECT_NEAR(at.back(), kPlaneHalfSize, 1.3 * kSpacing);
 }
 
+TEST_F(LinesOnAPlane, GoStraightThroughTheEdgeTheyAreAnchoredTo) {
+  int tried = 0;
+  for (Index h = 0; h < mesh_.halfedge_count(); h += 97) {
+    const Vec3& a = mesh_.positions[mesh_.from(h)];
+    const Vec3& b = mesh_.positions[mesh_.to(h)];
+    const Vec3 edge = (b - a).normalized();
+    if (mesh_.is_boundary(h) || a.cwiseAbs().maxCoeff() > 0.6 || std::abs(edge.y()) < 0.5) continue;
+    ++tried;
+    const Seed seed{TriMesh::face_of(h), Vec3::Constant(1.0 / 3), Vec3::UnitZ().cross(edge),
+                    LinePoint{h, 0.2}};
+    const double y = line_point_position(mesh_, seed.anchor).y();
+    LineTracer tracer(domain_, barriers_, {});
+    TracedLine line;
+    std::vector<Seed> spawned;
+    ASSERT_TRUE(tracer.trace(seed, 0, line, spawned));
+    EXPECT_EQ(line.start_reason, LineEnd::boundary);
+    EXPECT_EQ(line.end_reason, LineEnd::boundary);
+    for (const LinePoint& p : line.points) {
+      EXPECT_NEAR(line_point_position(mesh_, p).y(), y, 0.01);
+    }
+    for (std::size_t i = 1; i < line.points.size(); ++i) {
+      EXPECT_TRUE(
+          is_proper_chord(mesh_, line.chord_face[i - 1], line.points[i - 1], line.points[i]));
+    }
+  }
+  EXPECT_GT(tried, 10);
+}
+
 TEST_F(LinesOnAPlane, KeepTheirDistanceFromEachOther) {
   const TracerSettings settings;
   LineTracer tracer(domain_, barriers_, settings);
