@@ -11,6 +11,8 @@ set(STRAKE_SANITIZE "" CACHE STRING "Sanitizers to build with, as for -fsanitize
 if(STRAKE_SANITIZE)
   add_compile_options(-fsanitize=${STRAKE_SANITIZE} -fno-sanitize-recover=all
                       -fno-omit-frame-pointer)
+  # With sanitizers GCC takes values in library headers for uninitialised that are not.
+  add_compile_options($<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   add_link_options(-fsanitize=${STRAKE_SANITIZE})
 endif()
 
