@@ -46,7 +46,7 @@ std::string summary_text(const std::string& output, const PolyMesh& mesh, const 
         std::pair{"distance from input, largest", "distance.from_reference.max_share"}}) {
     line(label, key, 100, "% of the diagonal");
   }
-  line("aligned within 10 deg", "alignment.within_10_deg_share", 100, "% of the edge length");
+  line("within 10 deg of own field", "alignment.within_10_deg_share", 100, "% of the edge length");
   line("smallest angle", "angles.min_deg", 1, "deg");
   line("concave faces", "faces.concave", 1, "");
   return text;

@@ -47,8 +47,8 @@ struct LineSet {
   std::vector<LineEnd> end_reason;    ///< [L]
   std::vector<Index> seed_point;      ///< [L] index into `points` of the point nearest to the seed
 
-  /// [W] wanted distance between neighbouring lines, model units: measured along t_min (between
-  /// maximum lines) and across it (between minimum lines), graded over the surface.
+  /// [W] wanted distance between neighbouring lines, model units, graded over the surface: measured
+  /// along the field's `cross` (its arm nearest to t_min) and across it.
   std::vector<double> spacing_along_min;
   std::vector<double> spacing_along_max;
 

@@ -296,10 +296,6 @@ class Partitioner {
       stack.push_back(diagonal);
       stack.push_back(DartGraph::opposite(diagonal));
     }
-    for (const Index d : cells()) {
-      const auto [i, j] = repeated(graph_.cell(d));
-      counts_.pinched_left += i != j;
-    }
   }
 
   /// Two positions of a cell at the same node; equal where there are none.

@@ -8,7 +8,6 @@ struct PartitionCounts {
   Index diagonals = 0;
   Index moved_nodes = 0;    ///< T-joints moved onto the line they lie on
   Index centred_faces = 0;  ///< faces divided from a new node in their middle
-  Index pinched_left = 0;   ///< faces with a repeated node that could not be divided
 };
 
 /// Divides cells until each visits a node only once, has at most `max_sides` sides and is convex
