@@ -139,7 +139,7 @@ void RemeshCommand::meet_count(Pipeline& pipeline, const std::string& what, std:
 
 void RemeshCommand::run() {
   check();
-  ConsoleObserver console(shell.verbosity());
+  ConsoleObserver console = shell.console();
   console.begin("strake");
   console.report("reading " + input, 0);
   Pipeline pipeline(console);

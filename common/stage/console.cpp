@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "common/core/error.h"
@@ -16,6 +17,12 @@ namespace {
 volatile sig_atomic_t interrupt_arrived = 0;
 
 void on_interrupt(int /*signal*/) { interrupt_arrived = 1; }
+
+void print_event(const nlohmann::ordered_json& event) {
+  constexpr bool kAsciiOnly = true;
+  using Handler = nlohmann::ordered_json::error_handler_t;
+  fmt::print(stderr, "{}\n", event.dump(-1, ' ', kAsciiOnly, Handler::replace));
+}
 
 }  // namespace
 
@@ -28,8 +35,10 @@ void catch_interrupts() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
-ConsoleObserver::ConsoleObserver(Verbosity verbosity)
-    : verbosity_(verbosity), terminal_(isatty(STDERR_FILENO) != 0) {}
+ConsoleObserver::ConsoleObserver(Verbosity verbosity, LogFormat format)
+    : verbosity_(verbosity),
+      format_(format),
+      terminal_(format == LogFormat::text && isatty(STDERR_FILENO) != 0) {}
 
 ConsoleObserver::~ConsoleObserver() { clear_bar(); }
 
@@ -45,26 +54,37 @@ void ConsoleObserver::report(std::string_view phase, double fraction) {
   using namespace std::chrono_literals;
   const auto now = std::chrono::steady_clock::now();
   const bool new_phase = phase != phase_;
-  if (!new_phase && now - last_shown_ < (terminal_ ? 100ms : 10s)) return;
+  const auto pause = terminal_ || format_ == LogFormat::json ? 100ms : 10s;
+  if (!new_phase && now - last_shown_ < pause) return;
   phase_ = phase;
   last_shown_ = now;
-  const double share = std::clamp(fraction, 0.0, 1.0);
-  if (terminal_) {
+  show_progress(std::clamp(fraction, 0.0, 1.0), new_phase);
+  std::fflush(stderr);
+}
+
+void ConsoleObserver::show_progress(double share, bool new_phase) {
+  if (format_ == LogFormat::json) {
+    print_event(
+        {{"event", "progress"}, {"label", label_}, {"phase", phase_}, {"fraction", share}});
+  } else if (terminal_) {
     constexpr int kWidth = 30;
     const int full = static_cast<int>(share * kWidth);
     fmt::print(stderr, "\r\033[K{:9} [{:=<{}}{:{}}] {:3.0f} % {}", label_, "", full, "",
-               kWidth - full, 100 * share, phase);
+               kWidth - full, 100 * share, phase_);
     bar_visible_ = true;
   } else if (new_phase) {
-    fmt::print(stderr, "{}: {}\n", label_, phase);
+    fmt::print(stderr, "{}: {}\n", label_, phase_);
   } else {
-    fmt::print(stderr, "{}: {} {:.0f} %\n", label_, phase, 100 * share);
+    fmt::print(stderr, "{}: {} {:.0f} %\n", label_, phase_, 100 * share);
   }
-  std::fflush(stderr);
 }
 
 void ConsoleObserver::say(const std::string& line) {
   if (verbosity_ == Verbosity::quiet) return;
+  if (format_ == LogFormat::json) {
+    print_event({{"event", "message"}, {"text", line}});
+    return;
+  }
   clear_bar();
   fmt::print(stderr, "{}\n", line);
 }

@@ -11,14 +11,18 @@ namespace strake {
 /// How much a program says on stderr.
 enum class Verbosity { quiet, normal, verbose };
 
+/// How events are written to stderr: for people, or one JSON object per line for programs.
+enum class LogFormat { text, json };
+
 /// From now on SIGINT and SIGTERM ask the running stage to stop; a second one ends the program.
 void catch_interrupts();
 
-/// Shows progress on stderr: a bar on a terminal, a line per phase otherwise.
+/// Shows progress on stderr: a bar on a terminal, a line per phase otherwise. As JSON:
+/// {"event": "progress", "label", "phase", "fraction"} and {"event": "message", "text"}.
 /// Cancels the run with Interrupted once a caught signal has arrived.
 class ConsoleObserver : public Observer {
  public:
-  explicit ConsoleObserver(Verbosity verbosity);
+  explicit ConsoleObserver(Verbosity verbosity, LogFormat format = LogFormat::text);
   ConsoleObserver(const ConsoleObserver&) = delete;
   ConsoleObserver& operator=(const ConsoleObserver&) = delete;
   ~ConsoleObserver() override;
@@ -31,8 +35,10 @@ class ConsoleObserver : public Observer {
 
  private:
   void clear_bar();
+  void show_progress(double share, bool new_phase);
 
   Verbosity verbosity_;
+  LogFormat format_;
   bool terminal_;
   bool bar_visible_ = false;
   std::string label_;

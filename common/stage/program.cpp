@@ -99,7 +99,7 @@ Inputs load_inputs(const Stage& stage, const Paths& paths, Provenance& provenanc
 
 void run_program(const Stage& stage, const Paths& paths, const ShellOptions& shell) {
   check_paths(stage, paths);
-  ConsoleObserver console(shell.verbosity());
+  ConsoleObserver console = shell.console();
   console.begin(stage.name);
   StageRecord record{provenance_of(stage), {}};
   const Inputs inputs = load_inputs(stage, paths, record.provenance, console);
@@ -149,12 +149,17 @@ void ShellOptions::add_to(CLI::App& app) {
                         .affects_result = false}});
   CLI::Option* quiet_flag = group->add_flag("-q,--quiet", quiet, "Say nothing but errors.");
   group->add_flag("-v,--verbose", verbose, "Print the report too.")->excludes(quiet_flag);
+  group->add_flag("--log-json", log_json, "Tell progress and warnings as JSON, one object a line.")
+      ->excludes(quiet_flag);
   group->add_option("--report", report_path, "Write counts, measures and warnings as JSON.")
       ->type_name("FILE.json");
 }
 
-Verbosity ShellOptions::verbosity() const {
-  return quiet ? Verbosity::quiet : verbose ? Verbosity::verbose : Verbosity::normal;
+ConsoleObserver ShellOptions::console() const {
+  const Verbosity verbosity = quiet     ? Verbosity::quiet
+                              : verbose ? Verbosity::verbose
+                                        : Verbosity::normal;
+  return ConsoleObserver(verbosity, log_json ? LogFormat::json : LogFormat::text);
 }
 
 int run_guarded(const std::string& program, const std::function<int()>& body) {

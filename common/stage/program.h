@@ -21,11 +21,13 @@ struct ShellOptions {
   std::int64_t threads = 0;  ///< 0: all processors
   bool quiet = false;
   bool verbose = false;
+  bool log_json = false;
   std::string report_path;
 
-  /// Adds --threads, --quiet, --verbose and --report.
+  /// Adds --threads, --quiet, --verbose, --log-json and --report.
   void add_to(CLI::App& app);
-  [[nodiscard]] Verbosity verbosity() const;
+  /// What the running work reports to.
+  [[nodiscard]] ConsoleObserver console() const;
 };
 
 /// Runs `body` with signals caught and with every error turned into a message and an exit code.

@@ -1,4 +1,7 @@
 #include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 
 #include "common/artifact/artifact.h"
 #include "common/artifact/meshfile/mesh_reader.h"
@@ -56,6 +59,20 @@ TEST_F(FrontEnd, QuietSaysNothing) {
   const Outcome outcome = run("strake remesh torus.ply -o out.obj -q");
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.out + outcome.err, "");
+}
+
+TEST_F(FrontEnd, LogsAsOneJsonObjectALine) {
+  std::istringstream log(run("strake remesh torus.ply -o out.obj --log-json").err);
+  std::set<std::string> labels;
+  for (std::string line; std::getline(log, line);) {
+    const auto event = nlohmann::json::parse(line);
+    if (event.at("event") != "progress") continue;
+    labels.insert(event.at("label"));
+    EXPECT_GE(event.at("fraction"), 0.0);
+    EXPECT_LE(event.at("fraction"), 1.0);
+  }
+  EXPECT_EQ(labels, (std::set<std::string>{"strake", "import", "tensor", "smooth", "trace", "mesh",
+                                           "evaluate"}));
 }
 
 TEST_F(FrontEnd, ReportHoldsEveryStage) {
