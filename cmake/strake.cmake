@@ -32,13 +32,14 @@ function(strake_program name)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
 endfunction()
 
-# strake_stage(NAME): the description and the program of stages/NAME, around the library strake_NAME.
+# strake_stage(NAME): the description and the program of stages/NAME, around the library strake_NAME
+# if there is one.
 function(strake_stage name)
-  if(NOT TARGET strake_${name})
-    return()
-  endif()
   set(folder ${CMAKE_CURRENT_SOURCE_DIR}/${name})
-  strake_library(${name}_stage SOURCES ${folder}/stage.cpp DEPENDS strake_${name} strake_stage)
+  strake_library(${name}_stage SOURCES ${folder}/stage.cpp DEPENDS strake_stage)
+  if(TARGET strake_${name})
+    target_link_libraries(strake_${name}_stage PUBLIC strake_${name})
+  endif()
   strake_program(strake-${name} SOURCES ${folder}/main.cpp DEPENDS strake_${name}_stage)
 endfunction()
 

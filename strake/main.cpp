@@ -11,12 +11,8 @@ int main(int argc, char** argv) {
     strake::add_info_command(app, chosen);
     strake::add_check_command(app, chosen);
     strake::add_sample_command(app, chosen);
-    app.add_subcommand("run", "Run a pipeline file (not there yet).")->callback([&] {
-      chosen = []() -> int {
-        throw strake::UsageError(
-            "'strake run' is not there yet; use 'strake remesh' or the programs of the stages");
-      };
-    });
+    strake::add_run_command(app, chosen);
+    strake::add_step_command(app, chosen);
     if (const auto exit_code = strake::parse_command_line(app, argc, argv)) return *exit_code;
     return chosen();
   });

@@ -10,6 +10,25 @@
 #include "common/core/error.h"
 
 namespace strake {
+namespace {
+
+std::string to_text(const XXH128_hash_t& hash) {
+  XXH128_canonical_t canonical;
+  XXH128_canonicalFromHash(&canonical, hash);
+  std::string text;
+  for (const unsigned char byte : canonical.digest) {
+    char digits[3];
+    std::snprintf(digits, sizeof digits, "%02x", byte);
+    text += digits;
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string digest_text(std::string_view text) {
+  return to_text(XXH3_128bits(text.data(), text.size()));
+}
 
 std::string digest_file(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
@@ -22,15 +41,7 @@ std::string digest_file(const std::filesystem::path& path) {
     XXH3_128bits_update(state.get(), block.data(), static_cast<std::size_t>(stream.gcount()));
   }
   if (!stream.eof()) throw InputError(path.string() + ": cannot be read; check name and rights");
-  XXH128_canonical_t canonical;
-  XXH128_canonicalFromHash(&canonical, XXH3_128bits_digest(state.get()));
-  std::string text;
-  for (const unsigned char byte : canonical.digest) {
-    char digits[3];
-    std::snprintf(digits, sizeof digits, "%02x", byte);
-    text += digits;
-  }
-  return text;
+  return to_text(XXH3_128bits_digest(state.get()));
 }
 
 }  // namespace strake

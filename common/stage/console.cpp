@@ -35,6 +35,8 @@ void catch_interrupts() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
+bool interrupt_requested() { return interrupt_arrived != 0; }
+
 ConsoleObserver::ConsoleObserver(Verbosity verbosity, LogFormat format)
     : verbosity_(verbosity),
       format_(format),
@@ -49,7 +51,7 @@ void ConsoleObserver::begin(std::string label) {
 }
 
 void ConsoleObserver::report(std::string_view phase, double fraction) {
-  if (interrupt_arrived != 0) throw Interrupted();
+  if (interrupt_requested()) throw Interrupted();
   if (verbosity_ == Verbosity::quiet) return;
   using namespace std::chrono_literals;
   const auto now = std::chrono::steady_clock::now();

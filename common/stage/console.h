@@ -17,6 +17,9 @@ enum class LogFormat { text, json };
 /// From now on SIGINT and SIGTERM ask the running stage to stop; a second one ends the program.
 void catch_interrupts();
 
+/// Whether one of these signals has arrived.
+bool interrupt_requested();
+
 /// Shows progress on stderr: a bar on a terminal, a line per phase otherwise. As JSON:
 /// {"event": "progress", "label", "phase", "fraction"} and {"event": "message", "text"}.
 /// Cancels the run with Interrupted once a caught signal has arrived.

@@ -1,0 +1,40 @@
+#include "common/artifact/store/entry_lock.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "common/core/error.h"
+
+namespace strake {
+
+namespace fs = std::filesystem;
+
+EntryLock::EntryLock(const fs::path& folder) {
+  const fs::path file = folder / "lock";
+  std::error_code error;
+  fs::create_directories(folder, error);
+  descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) {
+    throw InputError("store: cannot write '" + folder.string() + "': " + std::strerror(errno) +
+                     "; free space, check the rights, or use another store");
+  }
+  struct flock range = {};
+  range.l_type = F_WRLCK;
+  range.l_whence = SEEK_SET;
+  if (::fcntl(descriptor_, F_OFD_SETLK, &range) != 0 && (errno == EAGAIN || errno == EACCES)) {
+    return;
+  }
+  // Somebody may have removed the entry, and with it this file, before the lock was taken.
+  struct stat mine = {};
+  struct stat present = {};
+  held_ = ::fstat(descriptor_, &mine) == 0 && ::stat(file.c_str(), &present) == 0 &&
+          mine.st_ino == present.st_ino;
+}
+
+EntryLock::~EntryLock() { ::close(descriptor_); }
+
+}  // namespace strake

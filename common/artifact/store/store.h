@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/artifact/provenance.h"
+#include "common/artifact/store/file_stamp.h"
+
+namespace strake {
+
+/// The key of a result: the digest of how it was made (stage, stage version, resolved options,
+/// digests of the inputs) and of the kind of file. Equal keys mean equal bytes.
+std::string key_of(const Provenance& provenance, const std::string& file_extension);
+
+/// Where a result lies in a store: "rocker-arm/trace-0123456789abcdef".
+struct EntryName {
+  std::string model;
+  std::string stage;
+  std::string key;
+
+  [[nodiscard]] std::filesystem::path folder() const;
+};
+
+/// A result in a store, and how it came about.
+struct Entry {
+  std::string key;
+  Provenance provenance;
+  std::filesystem::path file;   ///< the artifact
+  std::string digest;           ///< of the artifact
+  FileStamp stamp;              ///< of the artifact, when its digest was last checked
+  double seconds = 0;           ///< that making it took
+  std::int64_t peak_bytes = 0;  ///< of memory
+};
+
+/// A folder of results that people and machines share. Each entry is a folder of its own with the
+/// artifact and, written last, a manifest: without a sound manifest there is no entry. Nothing is
+/// ever changed in place, so readers need no locks.
+class Store {
+ public:
+  enum class Check {
+    stamp,    ///< read the artifact only where its stamp is not the recorded one
+    content,  ///< read it always
+  };
+
+  explicit Store(std::filesystem::path root) : root_(std::move(root)) {}
+
+  [[nodiscard]] const std::filesystem::path& root() const { return root_; }
+  [[nodiscard]] std::filesystem::path folder(const EntryName& name) const {
+    return root_ / name.folder();
+  }
+  /// For small things that belong to the store but to no entry: "runs", "digests".
+  [[nodiscard]] std::filesystem::path side_folder(const std::string& name) const;
+
+  /// Makes the folder where it is missing.
+  /// \throw InputError where that fails, or where a newer strake uses the folder
+  void prepare() const;
+
+  /// The entry, if it is there and whole.
+  /// \param damage  is told what is wrong where there is one that is not; may be nullptr
+  [[nodiscard]] std::optional<Entry> find(const EntryName& name, Check check,
+                                          std::string* damage = nullptr) const;
+  /// Records an artifact that lies complete in the entry's folder; from now on it is there.
+  void add(const EntryName& name, Entry& entry) const;
+  /// Declares that an entry is not there, e.g. since it is damaged. The caller has its lock.
+  void withdraw(const EntryName& name) const;
+
+  /// What is in the store, for looking through it and cleaning up.
+  struct Listed {
+    std::filesystem::path folder;  ///< relative to the root
+    std::optional<Entry> entry;    ///< nothing where its manifest is missing or unsound
+    std::int64_t bytes = 0;        ///< of all files
+    std::int64_t used_ns = 0;      ///< when it was last made or used
+  };
+  [[nodiscard]] std::vector<Listed> list() const;
+  /// Notes that the entry was of use, for `list`. Does nothing in a read-only store.
+  void touch(const Entry& entry) const;
+  /// Removes an entry, unless somebody is writing it. \return whether it is gone
+  [[nodiscard]] bool remove(const std::filesystem::path& folder) const;
+
+ private:
+  std::filesystem::path root_;
+};
+
+}  // namespace strake

@@ -1,0 +1,231 @@
+#include "strake/run/description.h"
+
+#include <fmt/format.h>
+#include <glob.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "common/core/error.h"
+#include "strake/run/rules.h"
+#include "strake/run/stage_catalog.h"
+
+namespace strake {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string> kTopKeys = {"version", "store",    "models", "stages",
+                                           "options", "variants", "outputs"};
+constexpr const char* kVersion = "1";
+
+/// Reads one pipeline file; members are filled in the order in which they need each other.
+class Reader {
+ public:
+  explicit Reader(const fs::path& file)
+      : top_(YamlView::load(file).fields("a pipeline", kTopKeys)) {
+    description_.file = fs::absolute(file).lexically_normal();
+    folder_ = description_.file.parent_path();
+  }
+
+  Description read() {
+    if (!top_.count("version")) {
+      start().fail(fmt::format("'version: {}' is missing at the top", kVersion));
+    }
+    const YamlView& version = top_.at("version");
+    if (version.text("a version") != kVersion) {
+      version.fail(fmt::format("version {} is not known; this program reads version {}",
+                               version.text("a version"), kVersion));
+    }
+    description_.store = folder_ / (top_.count("store") ? top_.at("store").text("a folder")
+                                                        : std::string(".strake"));
+    description_.store = description_.store.lexically_normal();
+    description_.rules = top_.count("stages") ? read_rules(top_.at("stages"), description_.settings)
+                                              : standard_rules(start());
+    if (top_.count("options")) append_settings(top_.at("options"), description_.settings);
+    read_variants();
+    read_models();
+    read_deliveries();
+    return std::move(description_);
+  }
+
+ private:
+  [[nodiscard]] Place start() const { return {description_.file, 1, 1}; }
+
+  /// Settings nested by rule: "trace: {seed: 7}".
+  void append_settings(const YamlView& view, std::vector<Setting>& settings) const {
+    for (const YamlView::Entry& rule : view.entries("options by stage")) {
+      for (const YamlView::Entry& option : rule.value.entries("options")) {
+        settings.push_back(checked_setting(
+            description_.rules, {rule.key, option.key, option.value.text("a value"), option.place},
+            rule.place));
+      }
+    }
+  }
+
+  /// The variants that one entry stands for: one per combination of its lists' values.
+  void expand_variant(const YamlView::Entry& entry) {
+    std::vector<Variant> expanded = {{entry.key, entry.key, entry.place, {}}};
+    for (const YamlView::Entry& rule : entry.value.entries("options by stage")) {
+      for (const YamlView::Entry& option : rule.value.entries("options")) {
+        const bool is_list = option.value.is_list();
+        const std::vector<YamlView> values =
+            is_list ? option.value.items("values") : std::vector<YamlView>{option.value};
+        std::vector<Variant> combined;
+        for (const Variant& variant : expanded) {
+          for (const YamlView& value : values) {
+            combined.push_back(variant);
+            const std::string text = value.text("a value");
+            if (is_list) combined.back().name += "-" + path_part(text);
+            combined.back().settings.push_back(checked_setting(
+                description_.rules, {rule.key, option.key, text, value.place()}, rule.place));
+          }
+        }
+        expanded = std::move(combined);
+      }
+    }
+    for (Variant& variant : expanded) {
+      check_name(variant.name, variant.place);
+      for (const Variant& other : description_.variants) {
+        if (other.name == variant.name) {
+          variant.place.fail(fmt::format("there are two variants '{}'", variant.name));
+        }
+      }
+      description_.variants.push_back(std::move(variant));
+    }
+  }
+
+  void read_variants() {
+    if (top_.count("variants")) {
+      for (const YamlView::Entry& entry : top_.at("variants").entries("variants by name")) {
+        expand_variant(entry);
+      }
+    }
+    if (description_.variants.empty())
+      description_.variants.push_back({"default", "default", start(), {}});
+  }
+
+  void read_models() {
+    if (!top_.count("models")) start().fail("'models' is missing: there is nothing to do");
+    const YamlView& models = top_.at("models");
+    if (models.is_list()) {
+      for (const YamlView& item : models.items("models")) {
+        add_files("", item.text("a mesh file or pattern"), item.place());
+      }
+    } else {
+      for (const YamlView::Entry& entry : models.entries("models by name")) read_model(entry);
+    }
+    if (description_.models.empty()) models.fail("there is no model");
+  }
+
+  void read_model(const YamlView::Entry& entry) {
+    if (entry.value.is_scalar()) {
+      add_files(entry.key, entry.value.text("a mesh file"), entry.value.place());
+      return;
+    }
+    const auto fields = entry.value.fields("a model", {"file", "sample", "options", "variants"});
+    if (fields.count("file") == fields.count("sample")) {
+      entry.place.fail("a model has either a 'file' or a 'sample'");
+    }
+    if (fields.count("file")) {
+      add_files(entry.key, fields.at("file").text("a mesh file"), fields.at("file").place());
+    } else {
+      add_model(entry.key, entry.place, {});
+      for (const auto& option : fields.at("sample").entries("options of a sample")) {
+        description_.models.back().settings.push_back(checked_setting(
+            sample_rules(), {"sample", option.key, option.value.text("a value"), option.place},
+            option.place));
+      }
+    }
+    ModelEntry& model = description_.models.back();
+    if (fields.count("options")) append_settings(fields.at("options"), model.settings);
+    if (fields.count("variants")) model.variants = variant_names(fields.at("variants"));
+  }
+
+  /// Names of variants; the name of an entry with lists stands for all it was expanded to.
+  [[nodiscard]] std::vector<std::string> variant_names(const YamlView& view) const {
+    std::vector<std::string> names;
+    for (const YamlView& item : view.items("names of variants")) {
+      const std::string name = item.text("the name of a variant");
+      const std::size_t before = names.size();
+      std::vector<std::string> known;
+      for (const Variant& variant : description_.variants) {
+        known.push_back(variant.name);
+        if (variant.name == name || variant.entry == name) names.push_back(variant.name);
+      }
+      if (names.size() == before) {
+        item.fail(fmt::format("there is no variant '{}'{}", name, suggestion(name, known)));
+      }
+    }
+    return names;
+  }
+
+  /// Adds the file, or each file that a pattern with * or ? matches, named by its stem.
+  void add_files(const std::string& name, const std::string& text, const Place& place) {
+    const fs::path file = (folder_ / text).lexically_normal();
+    if (text.find_first_of("*?[") == std::string::npos) {
+      if (!fs::is_regular_file(file)) {
+        place.fail(fmt::format("there is no file '{}'", file.string()));
+      }
+      add_model(name.empty() ? file.stem().string() : name, place, file);
+      return;
+    }
+    glob_t matches = {};
+    const int failed = ::glob(file.c_str(), 0, nullptr, &matches);
+    const std::vector<std::string> paths(matches.gl_pathv, matches.gl_pathv + matches.gl_pathc);
+    ::globfree(&matches);
+    if (failed != 0 || paths.empty()) {
+      place.fail(fmt::format("no file matches '{}'", file.string()));
+    }
+    if (!name.empty()) place.fail("patterns have no single name; list them under 'models: [...]'");
+    for (const std::string& path : paths) add_model(fs::path(path).stem().string(), place, path);
+  }
+
+  void add_model(const std::string& name, const Place& place, const fs::path& file) {
+    check_name(name, place);
+    for (const ModelEntry& other : description_.models) {
+      if (other.name == name) place.fail(fmt::format("there are two models '{}'", name));
+    }
+    ModelEntry model{name, place, file, {}, {}};
+    for (const Variant& variant : description_.variants) model.variants.push_back(variant.name);
+    description_.models.push_back(std::move(model));
+  }
+
+  void read_deliveries() {
+    if (!top_.count("outputs")) return;
+    for (const YamlView::Entry& entry : top_.at("outputs").entries("files by artifact")) {
+      const std::vector<YamlView> files =
+          entry.value.is_list() ? entry.value.items("files") : std::vector<YamlView>{entry.value};
+      for (const YamlView& file : files) {
+        const std::string text = file.text("a file name");
+        const fs::path path = (folder_ / text).lexically_normal();
+        check_delivery(description_, entry, text, file.place());
+        description_.deliveries.push_back({entry.key, path.string(), file.place()});
+      }
+    }
+  }
+
+  std::map<std::string, YamlView> top_;
+  fs::path folder_;
+  Description description_;
+};
+
+}  // namespace
+
+Description read_description(const fs::path& file) { return Reader(file).read(); }
+
+Setting parse_setting(const Description& description, const std::string& text) {
+  const std::size_t equals = text.find('=');
+  const std::size_t dot = text.find('.');
+  if (equals == std::string::npos || dot == std::string::npos || dot > equals) {
+    throw UsageError("--set '" + text + "': write it as STAGE.OPTION=VALUE, e.g. trace.seed=7");
+  }
+  const Place place{"--set " + text, 1, 1};
+  return checked_setting(
+      description.rules,
+      {text.substr(0, dot), text.substr(dot + 1, equals - dot - 1), text.substr(equals + 1), place},
+      place);
+}
+
+}  // namespace strake

@@ -1,0 +1,258 @@
+#include "strake/run/execute_step.h"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/prctl.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "common/artifact/artifact.h"
+#include "common/artifact/digest.h"
+#include "common/artifact/store/entry_lock.h"
+#include "common/artifact/store/store.h"
+#include "common/core/error.h"
+#include "common/stage/console.h"
+#include "strake/run/child_process.h"
+#include "strake/run/memory_gate.h"
+#include "strake/run/plan.h"
+#include "strake/run/run_folder.h"
+#include "strake/run/stage_catalog.h"
+#include "strake/run/survey.h"
+
+namespace strake {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr std::chrono::milliseconds kLockPause{100};
+constexpr const char* kTemporaryExtension = ".tmp";
+
+/// An input of a step has other bytes than the run was planned with.
+class DamagedInput : public Error {
+ public:
+  explicit DamagedInput(const std::string& message) : Error(ExitCode::bad_input, message) {}
+};
+
+/// The folder that the program itself lies in: the programs of the stages lie beside it.
+fs::path program_folder() { return fs::read_symlink("/proc/self/exe").parent_path(); }
+
+class StepRun {
+ public:
+  StepRun(const fs::path& run_folder, const std::string& id)
+      : folder_(run_folder),
+        order_(folder_.order(id)),
+        settings_(folder_.settings()),
+        store_(settings_.store),
+        log_(folder_.log_file(id)) {}
+
+  ~StepRun() {
+    std::error_code ignored;
+    fs::remove(folder_.progress_file(order_.id), ignored);
+  }
+
+  int run() {
+    StepOutcome outcome;
+    try {
+      outcome = make();
+      for (const std::string& file : order_.deliver_to) deliver(outcome.file, file);
+    } catch (const DamagedInput& error) {
+      outcome.kind = StepOutcome::Kind::damaged;
+      outcome.message = error.what();
+      outcome.exit_code = static_cast<int>(error.code());
+    } catch (const Error& error) {
+      outcome.kind = StepOutcome::Kind::failed;
+      outcome.message = error.what();
+      outcome.exit_code = static_cast<int>(error.code());
+    }
+    if (!outcome.message.empty()) log(outcome.message);
+    folder_.write_outcome(order_.id, outcome);
+    return outcome.exit_code;
+  }
+
+ private:
+  void log(const std::string& line) { log_ << line << std::endl; }
+
+  void show(const std::string& text) const {
+    std::ofstream(folder_.progress_file(order_.id)) << text << '\n';
+  }
+
+  /// Finds where inputs from other steps are, and checks the bytes of all of them.
+  void resolve(std::vector<OrderedInput>& inputs) {
+    for (OrderedInput& input : inputs) {
+      if (!input.from.empty()) {
+        const std::optional<StepOutcome> made = folder_.outcome(input.from);
+        if (!made || made->file.empty()) {
+          throw PreconditionError("step '" + input.from + "', which this one needs, has not ended");
+        }
+        input.file = made->file;
+        input.digest = made->digest;
+        input.entry = made->entry;
+      }
+      const bool exists = fs::exists(input.file);
+      const std::string digest = exists ? digest_file(input.file) : "";
+      if (input.digest.empty()) input.digest = digest;  // a model file: what it is now counts
+      if (exists && digest == input.digest) continue;
+      if (input.entry) store_.withdraw(*input.entry);
+      throw DamagedInput(fmt::format("'{}' is {}; it will be made again", input.file.string(),
+                                     exists ? "damaged" : "gone"));
+    }
+  }
+
+  /// The lock of the entry, once whoever makes it at present is done.
+  std::unique_ptr<EntryLock> wait_for_lock(const EntryName& name) const {
+    for (;;) {
+      auto lock = std::make_unique<EntryLock>(store_.folder(name));
+      if (lock->is_held()) return lock;
+      show("waiting for another run that makes the same");
+      if (interrupt_requested()) throw Interrupted();
+      std::this_thread::sleep_for(kLockPause);
+    }
+  }
+
+  /// Removes what a killed process left half written. The caller has the lock.
+  void clean(const EntryName& name) const {
+    std::error_code ignored;
+    for (const auto& file : fs::directory_iterator(store_.folder(name), ignored)) {
+      if (file.path().extension() == kTemporaryExtension) fs::remove(file.path(), ignored);
+    }
+  }
+
+  [[nodiscard]] std::vector<std::string> command(const Provenance& provenance,
+                                                 const fs::path& output) const {
+    std::vector<std::string> words = {(program_folder() / ("strake-" + order_.program)).string()};
+    const Stage stage = make_stage(order_.stage);
+    for (const OrderedInput& input : order_.inputs) {
+      const auto port = std::find_if(stage.inputs.begin(), stage.inputs.end(),
+                                     [&](const Port& p) { return p.name == input.port; });
+      if (!port->required) words.push_back("--" + input.port);
+      words.push_back(input.file.string());
+    }
+    for (const OrderedInput& part : order_.parts) words.push_back(part.file.string());
+    words.insert(words.end(), {"-o", output.string(), "--log-json"});
+    words.insert(words.end(), {"--threads", std::to_string(order_.threads)});
+    if (!order_.parts.empty()) return words;  // a merge takes its options from the parts
+    for (const auto& option : provenance.options) {
+      const bool is_flag = std::holds_alternative<bool*>(stage.option(option.name).target);
+      if (option.is_default) continue;
+      words.push_back("--" + option.name);
+      if (!is_flag) words.push_back(option.value);
+    }
+    return words;
+  }
+
+  /// Turns an event of the program into progress or a line of the log.
+  void take_line(const std::string& line) {
+    const Json event = Json::parse(line, nullptr, false);
+    if (!event.is_object() || !event.contains("event")) {
+      last_line_ = line;
+      log(line);
+    } else if (event["event"] == "progress") {
+      const std::string phase = event.value("phase", "");
+      show(fmt::format("{} {:.0f} %", phase, 100 * event.value("fraction", 0.0)));
+      if (phase != phase_) log(phase);
+      phase_ = phase;
+    } else {
+      log(event.value("text", line));
+    }
+  }
+
+  StepOutcome make() {
+    show("checking inputs");
+    resolve(order_.inputs);
+    resolve(order_.parts);
+    const Stage stage = make_stage(order_.stage);
+    for (const Setting& setting : order_.settings) {
+      stage.option(setting.option).parse_into(setting.value);
+    }
+    Provenance provenance = provenance_of(stage);
+    for (const OrderedInput& input : order_.inputs) {
+      provenance.inputs.push_back({input.port, input.digest});
+    }
+    const EntryName name{order_.model, order_.stage,
+                         key_of(provenance, fs::path(order_.file_name).extension().string())};
+    const std::unique_ptr<EntryLock> lock = wait_for_lock(name);
+    std::string damage;
+    const std::optional<Entry> stored = store_.find(name, Store::Check::content, &damage);
+    if (!damage.empty()) log("the store's artifact is not used: " + damage);
+    if (stored && !order_.forced) {
+      store_.touch(*stored);
+      StepOutcome outcome{StepOutcome::Kind::found, "", 0, name, stored->file, stored->digest};
+      log("found in the store: " + stored->file.string());
+      return outcome;
+    }
+    return run_program(name, provenance, stored);
+  }
+
+  StepOutcome run_program(const EntryName& name, const Provenance& provenance,
+                          const std::optional<Entry>& before) {
+    std::optional<MemoryShare> share;
+    if (settings_.memory > 0) {
+      show("waiting for memory");
+      share.emplace(folder_.path() / "memory", settings_.memory, order_.memory, [] {
+        if (interrupt_requested()) throw Interrupted();
+      });
+    }
+    clean(name);
+    Entry entry;
+    entry.file = store_.folder(name) / order_.file_name;
+    entry.provenance = provenance;
+    const std::vector<std::string> words = command(provenance, entry.file);
+    log(fmt::format("{}", fmt::join(words, " ")));
+    ChildProcess child(words);
+    const ChildOutcome ended = child.wait([&](const std::string& line) { take_line(line); }, [] {});
+    log(fmt::format("exit code {} after {:.3f} s, at most {} bytes of memory", ended.exit_code,
+                    ended.seconds, ended.peak_bytes));
+    StepOutcome outcome;
+    outcome.entry = name;
+    outcome.seconds = ended.seconds;
+    outcome.peak_bytes = ended.peak_bytes;
+    outcome.exit_code = ended.exit_code;
+    if (ended.exit_code != 0) {
+      outcome.message =
+          last_line_.empty() ? fmt::format("ended with exit code {}", ended.exit_code) : last_line_;
+      return outcome;
+    }
+    if (is_artifact(entry.file) && read_artifact_info(entry.file).provenance != provenance) {
+      throw AlgorithmError(
+          fmt::format("'{}' says it was made in another way than asked for; are "
+                      "the programs beside 'strake' of its version?",
+                      entry.file.string()));
+    }
+    entry.digest = digest_file(entry.file);
+    entry.seconds = ended.seconds;
+    entry.peak_bytes = ended.peak_bytes;
+    if (before && before->digest != entry.digest) {
+      log("warning: running again gave other bytes than before; please report this");
+    }
+    store_.add(name, entry);
+    outcome.kind = StepOutcome::Kind::ran;
+    outcome.file = entry.file;
+    outcome.digest = entry.digest;
+    return outcome;
+  }
+
+  RunFolder folder_;
+  StepOrder order_;
+  RunSettings settings_;
+  Store store_;
+  std::ofstream log_;
+  std::string phase_;
+  std::string last_line_;  ///< of plain text: the error, where the program fails
+};
+
+}  // namespace
+
+int execute_step(const fs::path& run_folder, const std::string& id) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // an engine that is killed takes its steps with it
+  return StepRun(run_folder, id).run();
+}
+
+}  // namespace strake

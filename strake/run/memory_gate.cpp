@@ -1,0 +1,68 @@
+#include "strake/run/memory_gate.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <thread>
+#include <vector>
+
+#include "common/core/error.h"
+
+namespace strake {
+namespace {
+
+constexpr std::int64_t kUnit = 16 << 20;  ///< bytes of memory per locked byte of the file
+constexpr off_t kGate = 0;                ///< the byte that whoever is next in line holds
+constexpr std::chrono::milliseconds kPause{50};
+
+/// Takes or releases the lock of one byte. \return whether that worked
+bool lock_byte(int descriptor, off_t byte, short type) {
+  struct flock range = {};
+  range.l_type = type;
+  range.l_whence = SEEK_SET;
+  range.l_start = byte;
+  range.l_len = 1;
+  return ::fcntl(descriptor, F_OFD_SETLK, &range) == 0;
+}
+
+std::int64_t units(std::int64_t bytes) { return (bytes + kUnit - 1) / kUnit; }
+
+}  // namespace
+
+MemoryShare::MemoryShare(const std::filesystem::path& file, std::int64_t total, std::int64_t share,
+                         const std::function<void()>& idle)
+    : descriptor_(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+  if (descriptor_ < 0) {
+    throw InputError(fmt::format("cannot use '{}': {}", file.string(), std::strerror(errno)));
+  }
+  const std::int64_t available = std::max<std::int64_t>(units(total), 1);
+  std::int64_t missing = std::clamp<std::int64_t>(units(share), 1, available);
+  const auto pause = [&] {
+    idle();
+    std::this_thread::sleep_for(kPause);
+  };
+  while (!lock_byte(descriptor_, kGate, F_WRLCK)) pause();
+  // Units that are free are kept while waiting for the rest; nobody else takes any meanwhile.
+  std::vector<bool> mine(static_cast<std::size_t>(available), false);
+  for (;;) {
+    for (std::int64_t i = 0; i < available && missing > 0; ++i) {
+      if (mine[static_cast<std::size_t>(i)] || !lock_byte(descriptor_, kGate + 1 + i, F_WRLCK)) {
+        continue;
+      }
+      mine[static_cast<std::size_t>(i)] = true;
+      --missing;
+    }
+    if (missing == 0) break;
+    pause();
+  }
+  lock_byte(descriptor_, kGate, F_UNLCK);
+}
+
+MemoryShare::~MemoryShare() { ::close(descriptor_); }
+
+}  // namespace strake

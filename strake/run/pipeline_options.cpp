@@ -1,0 +1,57 @@
+#include "strake/run/pipeline_options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <filesystem>
+
+#include "common/core/error.h"
+
+namespace strake {
+
+namespace fs = std::filesystem;
+
+void PipelineOptions::add_to(CLI::App& app) {
+  app.add_option("targets", targets, "MODEL or MODEL/VARIANT; default: everything")
+      ->type_name("TARGET");
+  app.add_option("-f,--file", file, "Pipeline file.")->type_name("FILE")->capture_default_str();
+  app.add_option("--store", store, "Folder of the results, instead of the one in the file.")
+      ->type_name("FOLDER");
+  app.add_option("--until", until, "Last stage of interest.")->type_name("STAGE");
+  app.add_option("--set", settings, "An option for this time only: trace.seed=7.")
+      ->type_name("STAGE.OPTION=VALUE")
+      ->take_all()
+      ->allow_extra_args(false);
+}
+
+Description PipelineOptions::read() const {
+  Description description = read_description(file);
+  if (!store.empty()) description.store = fs::absolute(store).lexically_normal();
+  return description;
+}
+
+Selection PipelineOptions::selection(const Description& description) const {
+  Selection selection;
+  selection.targets = targets;
+  if (!until.empty()) {
+    check_rule_name(until, description, "--until");
+    selection.until = until;
+  }
+  for (const std::string& text : settings) {
+    selection.settings.push_back(parse_setting(description, text));
+  }
+  return selection;
+}
+
+void check_rule_name(const std::string& name, const Description& description,
+                     const std::string& option) {
+  std::vector<std::string> known;
+  for (const Rule& rule : description.rules) known.push_back(rule.name);
+  if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;
+  throw UsageError(fmt::format("{}: there is no stage '{}'{}; stages: {}", option, name,
+                               suggestion(name, known), fmt::join(known, ", ")));
+}
+
+}  // namespace strake

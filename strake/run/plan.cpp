@@ -1,0 +1,275 @@
+#include "strake/run/plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "common/core/error.h"
+#include "strake/run/rules.h"
+#include "strake/run/stage_catalog.h"
+
+namespace strake {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// File name of a stage's artifact.
+std::string artifact_name(const Stage& stage, const std::string& extension = "") {
+  if (!extension.empty()) return stage.output.name + extension;
+  switch (stage.output.kind) {
+    case PortKind::report:
+      return stage.name + ".json";
+    case PortKind::polygons:
+      return stage.output.name + ".ply";
+    default:
+      return stage.output.name + ".hdf";
+  }
+}
+
+std::string filled_in(std::string text, const std::string& model, const std::string& variant) {
+  const auto replace = [&](const std::string& mark, const std::string& value) {
+    for (std::size_t at; (at = text.find(mark)) != std::string::npos;) {
+      text.replace(at, mark.size(), value);
+    }
+  };
+  replace("{model}", model);
+  replace("{variant}", variant);
+  return text;
+}
+
+class Planner {
+ public:
+  Planner(const Description& description, const Selection& selection)
+      : description_(description), selection_(selection) {
+    plan_.store = description.store;
+  }
+
+  Plan make() {
+    check_targets();
+    for (std::size_t m = 0; m < description_.models.size(); ++m) {
+      const ModelEntry& model = description_.models[m];
+      for (const Variant& variant : description_.variants) {
+        const bool applies = std::find(model.variants.begin(), model.variants.end(),
+                                       variant.name) != model.variants.end();
+        if (applies && is_wanted(model.name, variant.name)) add(m, variant);
+      }
+    }
+    name_steps();
+    return std::move(plan_);
+  }
+
+ private:
+  [[nodiscard]] bool is_wanted(const std::string& model, const std::string& variant) const {
+    const auto& targets = selection_.targets;
+    return targets.empty() ||
+           std::any_of(targets.begin(), targets.end(), [&](const std::string& target) {
+             return target == model || target == model + "/" + variant;
+           });
+  }
+
+  void check_targets() const {
+    std::vector<std::string> known;
+    for (const ModelEntry& model : description_.models) {
+      known.push_back(model.name);
+      for (const std::string& variant : model.variants) known.push_back(model.name + "/" + variant);
+    }
+    for (const std::string& target : selection_.targets) {
+      if (std::find(known.begin(), known.end(), target) == known.end()) {
+        throw UsageError(
+            fmt::format("there is no target '{}'{}; targets are MODEL and "
+                        "MODEL/VARIANT, see 'strake status'",
+                        target, suggestion(target, known)));
+      }
+    }
+  }
+
+  /// The rules up to and including the last one of interest.
+  [[nodiscard]] std::vector<const Rule*> wanted_rules() const {
+    std::vector<const Rule*> rules;
+    std::set<std::string> needed;
+    for (auto rule = description_.rules.rbegin(); rule != description_.rules.rend(); ++rule) {
+      const bool is_last = selection_.until && rule->name == *selection_.until;
+      if (selection_.until && !is_last && needed.count(rule->output) == 0) continue;
+      for (const auto& [port, artifact] : rule->inputs) needed.insert(artifact);
+      rules.insert(rules.begin(), &*rule);
+    }
+    return rules;
+  }
+
+  /// Settings of a rule, weakest first.
+  [[nodiscard]] std::vector<Setting> settings_of(const std::string& rule, const ModelEntry& model,
+                                                 const Variant& variant) const {
+    std::vector<Setting> all;
+    for (const auto* source :
+         {&description_.settings, &model.settings, &variant.settings, &selection_.settings}) {
+      for (const Setting& setting : *source) {
+        if (setting.rule != rule) continue;
+        const auto same = std::find_if(all.begin(), all.end(), [&](const Setting& other) {
+          return other.option == setting.option;
+        });
+        if (same == all.end()) {
+          all.push_back(setting);
+        } else {
+          *same = setting;
+        }
+      }
+    }
+    return all;
+  }
+
+  void add(std::size_t model_index, const Variant& variant) {
+    const ModelEntry& model = description_.models[model_index];
+    std::map<std::string, StepInput> made;
+    made[kModelArtifact] = {"", kNoStep, model.file};
+    faces_ = 0;
+    if (model.file.empty()) {
+      static const std::vector<Rule> kSample = sample_rules();
+      made[kModelArtifact].step = step_for(model_index, kSample.front(), variant, made);
+    } else {
+      std::error_code ignored;
+      const auto bytes = fs::file_size(model.file, ignored);
+      faces_ = estimated_faces(ignored ? 0 : static_cast<std::int64_t>(bytes),
+                               model.file.extension().string());
+    }
+    for (const Rule* rule : wanted_rules()) {
+      const std::size_t step = step_for(model_index, *rule, variant, made);
+      made[rule->output] = {"", step, {}};
+      for (const Delivery& delivery : description_.deliveries) {
+        if (delivery.artifact != rule->output) continue;
+        deliver(step, filled_in(delivery.file, model.name, variant.name), variant);
+      }
+    }
+  }
+
+  /// The step that makes this rule's artifact; a new one where no other variant has the same.
+  std::size_t step_for(std::size_t model_index, const Rule& rule, const Variant& variant,
+                       const std::map<std::string, StepInput>& made) {
+    const ModelEntry& model = description_.models[model_index];
+    const Stage stage = make_stage(rule.program);
+    Step step;
+    step.model = model.name;
+    step.model_index = model_index;
+    step.rule = rule.name;
+    step.program = rule.program;
+    step.settings = settings_of(rule.name, model, variant);
+    step.file_name = artifact_name(stage);
+    step.resources = rule.resources;
+    step.faces = faces_;
+    for (const Port& port : stage.inputs) {
+      const auto source = rule.inputs.find(port.name);
+      if (source == rule.inputs.end()) continue;
+      step.inputs.push_back(made.at(source->second));
+      step.inputs.back().port = port.name;
+    }
+    return share(std::move(step), variant, rule.parts);
+  }
+
+  /// An equal step there is already, or this one.
+  std::size_t share(Step step, const Variant& variant, std::int64_t parts) {
+    std::string identity = fmt::format("{}\n{}\n{}\n", step.model, step.rule, step.file_name);
+    identity += step_provenance(step).to_json();
+    for (const StepInput& input : step.inputs) {
+      identity += fmt::format("\n{} {} {}", input.port, input.step, input.file.string());
+    }
+    const auto [known, is_new] = known_.emplace(identity, plan_.steps.size());
+    if (is_new) {
+      if (parts > 1) add_parts(step, parts);
+      known->second = plan_.steps.size();
+      plan_.steps.push_back(std::move(step));
+    }
+    std::vector<std::string>& variants = plan_.steps[known->second].variants;
+    if (variants.empty() || variants.back() != variant.name) variants.push_back(variant.name);
+    return known->second;
+  }
+
+  void add_parts(Step& whole, std::int64_t parts) {
+    for (std::int64_t part = 1; part <= parts; ++part) {
+      Step step = whole;
+      step.program = whole.program + "-part";
+      step.rule = fmt::format("{}-{}of{}", whole.rule, part, parts);
+      step.settings.push_back({whole.rule, "parts", std::to_string(parts), {}});
+      step.settings.push_back({whole.rule, "part", std::to_string(part), {}});
+      step.file_name = artifact_name(make_stage(step.program));
+      step.is_part = true;
+      step.parts.clear();
+      whole.parts.push_back(plan_.steps.size());
+      plan_.steps.push_back(std::move(step));
+    }
+  }
+
+  void deliver(std::size_t step, const std::string& file, const Variant& variant) {
+    const std::string wanted = fs::path(file).extension().string();
+    if (wanted != fs::path(plan_.steps[step].file_name).extension()) {
+      step = exported(step, wanted, variant);
+    }
+    std::vector<std::string>& files = plan_.steps[step].deliver_to;
+    if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
+  }
+
+  /// The step that turns a quads artifact into a mesh file of another format.
+  std::size_t exported(std::size_t source, const std::string& extension, const Variant& variant) {
+    const Stage stage = make_stage("export");
+    Step step = plan_.steps[source];
+    step.rule = "export" + extension;
+    step.program = stage.name;
+    step.variants.clear();
+    step.settings.clear();
+    step.deliver_to.clear();
+    step.parts.clear();
+    step.inputs = {{stage.inputs.front().name, source, {}}};
+    step.file_name = artifact_name(stage, extension);
+    step.resources = default_resources(stage.name);
+    return share(std::move(step), variant, 1);
+  }
+
+  void name_steps() {
+    std::map<std::pair<std::string, std::string>, int> count;
+    for (const Step& step : plan_.steps) ++count[{step.model, step.rule}];
+    std::set<std::string> used;
+    for (Step& step : plan_.steps) {
+      step.id = step.model + "." + step.rule;
+      step.title = step.model + " " + step.rule;
+      if (count.at({step.model, step.rule}) > 1) {
+        const std::string variant = step.variants.empty() ? "part" : step.variants.front();
+        step.id += "." + variant;
+        step.title += " (" + variant + ")";
+      }
+      for (int copy = 2; !used.insert(step.id).second; ++copy) {
+        step.id += fmt::format(".{}", copy);
+      }
+    }
+  }
+
+  const Description& description_;
+  const Selection& selection_;
+  Plan plan_;
+  std::map<std::string, std::size_t> known_;  ///< steps by what makes them equal
+  double faces_ = 0;                          ///< of the present model
+};
+
+}  // namespace
+
+Plan make_plan(const Description& description, const Selection& selection) {
+  return Planner(description, selection).make();
+}
+
+Provenance step_provenance(const Step& step) {
+  const Stage stage = make_stage(step.program);
+  for (const Setting& setting : step.settings) {
+    stage.option(setting.option).parse_into(setting.value);
+  }
+  return provenance_of(stage);
+}
+
+std::vector<std::size_t> needs_of(const Step& step) {
+  std::set<std::size_t> needs(step.parts.begin(), step.parts.end());
+  for (const StepInput& input : step.inputs) {
+    if (input.step != kNoStep) needs.insert(input.step);
+  }
+  return {needs.begin(), needs.end()};
+}
+
+}  // namespace strake

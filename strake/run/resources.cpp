@@ -1,0 +1,96 @@
+#include "strake/run/resources.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace strake {
+namespace {
+
+constexpr double kKilo = 1e3;
+constexpr double kMega = 1e6;
+constexpr double kGiga = 1e9;
+
+/// A number followed by one of the units, or by nothing.
+std::optional<double> parse_with_unit(std::string_view text,
+                                      const std::map<std::string, double, std::less<>>& units) {
+  try {
+    std::size_t used = 0;
+    const double number = std::stod(std::string(text), &used);
+    while (used < text.size() && text[used] == ' ') ++used;
+    const std::string_view unit = text.substr(used);
+    const auto factor = units.find(unit);
+    if (!(number >= 0) || !std::isfinite(number)) return std::nullopt;
+    if (unit.empty()) return number;
+    return factor == units.end() ? std::nullopt : std::optional(number * factor->second);
+  } catch (const std::logic_error&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+std::int64_t Resources::memory(double faces) const {
+  return static_cast<std::int64_t>(bytes + bytes_per_face * faces);
+}
+
+double Resources::time(double faces) const { return seconds + seconds_per_face * faces; }
+
+Resources default_resources(std::string_view program) {
+  constexpr double kBase = 60 * kMega;
+  const auto needs = [](double bytes_per_face, double microseconds_per_face) {
+    return Resources{kBase, bytes_per_face, 30, microseconds_per_face * 1e-6, 0};
+  };
+  if (program == "sample" || program == "export") return needs(400, 20);
+  if (program == "import") return needs(700, 20);
+  if (program == "tensor") return needs(500, 200);
+  if (program == "smooth") return needs(1200, 100);
+  if (program == "trace") return needs(1200, 400);
+  if (program == "mesh") return needs(1500, 100);
+  if (program == "evaluate") return needs(1200, 50);
+  return needs(1500, 400);
+}
+
+std::optional<double> parse_bytes(std::string_view text) {
+  static const std::map<std::string, double, std::less<>> kUnits = {
+      {"B", 1},        {"kB", kKilo},      {"KB", kKilo},
+      {"MB", kMega},   {"GB", kGiga},      {"TB", 1e12},
+      {"KiB", 1024.0}, {"MiB", 1048576.0}, {"GiB", 1073741824.0},
+      {"K", 1024.0},   {"M", 1048576.0},   {"G", 1073741824.0}};
+  return parse_with_unit(text, kUnits);
+}
+
+std::optional<double> parse_seconds(std::string_view text) {
+  static const std::map<std::string, double, std::less<>> kUnits = {
+      {"us", 1e-6}, {"ms", 1e-3}, {"s", 1}, {"min", 60}, {"h", 3600}, {"d", 86400}};
+  return parse_with_unit(text, kUnits);
+}
+
+std::string bytes_text(double bytes) {
+  for (const auto& [unit, size] : {std::pair{"GB", kGiga}, {"MB", kMega}, {"kB", kKilo}}) {
+    if (bytes >= size) return fmt::format("{:.3g} {}", bytes / size, unit);
+  }
+  return fmt::format("{:.0f} B", bytes);
+}
+
+std::string seconds_text(double seconds) {
+  if (seconds < 1) return fmt::format("{:.0f} ms", seconds * 1000);
+  if (seconds < 120) return fmt::format("{:.1f} s", seconds);
+  if (seconds < 7200) return fmt::format("{:.0f} min", seconds / 60);
+  return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+double estimated_faces(std::int64_t file_bytes, std::string_view file_extension) {
+  // The densest way each format has to write a triangle with its share of half a vertex.
+  static const std::map<std::string, double, std::less<>> kBytesPerFace = {
+      {".stl", 50}, {".ply", 19}, {".off", 20}, {".obj", 25}};
+  const auto found = kBytesPerFace.find(file_extension);
+  return static_cast<double>(file_bytes) / (found == kBytesPerFace.end() ? 19 : found->second);
+}
+
+}  // namespace strake

@@ -1,0 +1,47 @@
+#include "strake/run/stage_catalog.h"
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+#include "stages/evaluate/stage.h"
+#include "stages/export/stage.h"
+#include "stages/import/stage.h"
+#include "stages/mesh/stage.h"
+#include "stages/sample/stage.h"
+#include "stages/smooth/stage.h"
+#include "stages/tensor/stage.h"
+#include "stages/trace/stage.h"
+
+namespace strake {
+namespace {
+
+using Maker = Stage (*)();
+
+const std::vector<std::pair<std::string, Maker>>& catalog() {
+  static const std::vector<std::pair<std::string, Maker>> kCatalog = {
+      {"sample", sample_stage},     {"import", import_stage}, {"tensor", tensor_stage},
+      {"smooth", smooth_stage},     {"trace", trace_stage},   {"mesh", mesh_stage},
+      {"evaluate", evaluate_stage}, {"export", export_stage},
+  };
+  return kCatalog;
+}
+
+}  // namespace
+
+const std::vector<std::string>& stage_names() {
+  static const std::vector<std::string> kNames = [] {
+    std::vector<std::string> names;
+    for (const auto& [name, maker] : catalog()) names.push_back(name);
+    return names;
+  }();
+  return kNames;
+}
+
+Stage make_stage(const std::string& name) {
+  const auto found = std::find_if(catalog().begin(), catalog().end(),
+                                  [&](const auto& entry) { return entry.first == name; });
+  return found->second();
+}
+
+}  // namespace strake

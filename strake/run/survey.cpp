@@ -1,0 +1,177 @@
+#include "strake/run/survey.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "common/artifact/atomic_file.h"
+#include "common/core/error.h"
+
+namespace strake {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What differs between the way an artifact was made and the way it is wanted now.
+std::vector<std::string> differences(const Provenance& before, const Provenance& now) {
+  std::vector<std::string> all;
+  if (before.stage_version != now.stage_version) {
+    all.push_back(fmt::format("stage version {} -> {}", before.stage_version, now.stage_version));
+  }
+  for (const auto& option : now.options) {
+    const auto old = std::find_if(before.options.begin(), before.options.end(),
+                                  [&](const auto& other) { return other.name == option.name; });
+    if (old == before.options.end()) {
+      all.push_back("new option " + option.name);
+    } else if (old->value != option.value) {
+      const auto shown = [](const std::string& value) { return value.empty() ? "none" : value; };
+      all.push_back(
+          fmt::format("{} {} -> {}", option.name, shown(old->value), shown(option.value)));
+    }
+  }
+  for (const auto& input : now.inputs) {
+    const auto old = std::find_if(before.inputs.begin(), before.inputs.end(),
+                                  [&](const auto& other) { return other.role == input.role; });
+    if (old == before.inputs.end()) {
+      all.push_back("new input " + input.role);
+    } else if (old->digest != input.digest) {
+      all.push_back("other content of its input '" + input.role + "'");
+    }
+  }
+  return all;
+}
+
+class Surveyor {
+ public:
+  Surveyor(const Plan& plan, const Store& store, KnownDigests& digests,
+           const std::set<std::string>& forced, Store::Check check)
+      : plan_(plan), store_(store), digests_(digests), forced_(forced), check_(check) {}
+
+  std::vector<StepState> survey() {
+    states_.resize(plan_.steps.size());
+    for (std::size_t s = 0; s < plan_.steps.size(); ++s) look_at(s);
+    for (std::size_t s = 0; s < plan_.steps.size(); ++s) {
+      if (states_[s].status != StepState::Status::stale) continue;
+      for (const std::size_t part : plan_.steps[s].parts) part_is_needed(part);
+    }
+    return std::move(states_);
+  }
+
+ private:
+  void look_at(std::size_t s) {
+    const Step& step = plan_.steps[s];
+    StepState& state = states_[s];
+    Provenance provenance = step_provenance(step);
+    for (const StepInput& input : step.inputs) {
+      if (input.step == kNoStep) {
+        provenance.inputs.push_back({input.port, digests_.digest(input.file)});
+      } else if (const auto& entry = states_[input.step].entry) {
+        provenance.inputs.push_back({input.port, entry->digest});
+      } else {
+        state.reason = "its input '" + input.port + "' has to be made first";
+        return hide_part(s);
+      }
+    }
+    state.key = key_of(provenance, fs::path(step.file_name).extension().string());
+    const EntryName name{step.model, step.program, *state.key};
+    std::string damage;
+    state.entry = store_.find(name, check_, &damage);
+    if (!damage.empty()) {
+      state.reason = fmt::format("damaged: {} in {}", damage, store_.folder(name).string());
+    } else if (!state.entry) {
+      state.reason = reason_for(step, provenance);
+    } else if (forced_.count(step.rule) != 0) {
+      state.reason = "asked for with --force";
+    } else {
+      state.status = StepState::Status::cached;
+      state.reason = "nothing it depends on has changed";
+    }
+    hide_part(s);
+  }
+
+  /// A part is not needed until the whole turns out to be.
+  void hide_part(std::size_t s) {
+    if (plan_.steps[s].is_part && states_[s].status == StepState::Status::stale) {
+      states_[s].status = StepState::Status::unneeded;
+    }
+  }
+
+  void part_is_needed(std::size_t part) {
+    if (states_[part].status == StepState::Status::unneeded) {
+      states_[part].status = StepState::Status::stale;
+    }
+  }
+
+  /// Why there is no artifact of this key: what differs from the most similar one there is.
+  std::string reason_for(const Step& step, const Provenance& provenance) {
+    std::vector<std::string> nearest;
+    bool found = false;
+    for (const Entry* entry : entries_of(step)) {
+      const std::vector<std::string> all = differences(entry->provenance, provenance);
+      if (all.empty() || (found && all.size() >= nearest.size())) continue;
+      nearest = all;
+      found = true;
+    }
+    return found ? fmt::format("{}", fmt::join(nearest, ", ")) : "never made before";
+  }
+
+  std::vector<const Entry*> entries_of(const Step& step) {
+    if (!listed_) {
+      entries_ = store_.list();
+      listed_ = true;
+    }
+    const std::string prefix = (fs::path(step.model) / (step.program + "-")).string();
+    std::vector<const Entry*> found;
+    for (const Store::Listed& listed : entries_) {
+      const bool is_same_stage = listed.folder.string().rfind(prefix, 0) == 0;
+      if (is_same_stage && listed.entry && listed.entry->provenance.stage == step.program) {
+        found.push_back(&*listed.entry);
+      }
+    }
+    return found;
+  }
+
+  const Plan& plan_;
+  const Store& store_;
+  KnownDigests& digests_;
+  const std::set<std::string>& forced_;
+  Store::Check check_;
+  std::vector<StepState> states_;
+  std::vector<Store::Listed> entries_;  ///< of the store, once they are needed
+  bool listed_ = false;
+};
+
+}  // namespace
+
+std::vector<StepState> survey(const Plan& plan, const Store& store, KnownDigests& digests,
+                              const std::set<std::string>& forced, Store::Check check) {
+  return Surveyor(plan, store, digests, forced, check).survey();
+}
+
+std::vector<PendingDelivery> pending_deliveries(const Plan& plan,
+                                                const std::vector<StepState>& states,
+                                                KnownDigests& digests) {
+  std::vector<PendingDelivery> pending;
+  for (std::size_t s = 0; s < plan.steps.size(); ++s) {
+    if (states[s].status != StepState::Status::cached) continue;
+    for (const std::string& file : plan.steps[s].deliver_to) {
+      if (digests.find(file) != states[s].entry->digest) pending.push_back({s, file});
+    }
+  }
+  return pending;
+}
+
+void deliver(const fs::path& artifact, const fs::path& file) {
+  std::error_code error;
+  if (file.has_parent_path()) fs::create_directories(file.parent_path(), error);
+  AtomicFile target(file);
+  fs::copy_file(artifact, target.temporary(), fs::copy_options::overwrite_existing, error);
+  if (error) {
+    throw InputError(fmt::format("cannot write '{}': {}", file.string(), error.message()));
+  }
+  target.commit();
+}
+
+}  // namespace strake
