@@ -12,6 +12,9 @@ int main(int argc, char** argv) {
     strake::add_check_command(app, chosen);
     strake::add_sample_command(app, chosen);
     strake::add_run_command(app, chosen);
+    strake::add_status_command(app, chosen);
+    strake::add_gc_command(app, chosen);
+    strake::add_schema_command(app, chosen);
     strake::add_step_command(app, chosen);
     if (const auto exit_code = strake::parse_command_line(app, argc, argv)) return *exit_code;
     return chosen();

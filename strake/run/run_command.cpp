@@ -197,6 +197,9 @@ int RunCommand::run() {
       fmt::print("{} steps to run, {} in the store\n", stale, cached);
       return 0;
     }
+    for (const StepState& state : states) {
+      if (state.entry) store.touch(*state.entry);
+    }
     int exit_code = 0;
     if (stale > 0) {
       store.prepare();

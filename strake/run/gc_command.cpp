@@ -1,0 +1,150 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "common/artifact/store/store.h"
+#include "common/core/error.h"
+#include "strake/commands.h"
+#include "strake/run/pipeline_options.h"
+#include "strake/run/survey.h"
+
+namespace strake {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Records of runs that are younger are kept.
+constexpr double kKeepRunsSeconds = 7 * 86400.0;
+
+struct GcCommand {
+  PipelineOptions pipeline;
+  std::string older_than;
+  std::string max_size;
+  bool unreachable = false;
+  bool dry_run = false;
+
+  int run() const;
+
+ private:
+  [[nodiscard]] std::set<fs::path> reachable(const Description& description,
+                                             const Store& store) const;
+  void remove(const Store& store, const Store::Listed& listed, const char* why,
+              double& freed) const;
+};
+
+std::int64_t now_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+double amount(const std::string& text, const std::optional<double>& value, const char* option,
+              const char* example) {
+  if (value) return *value;
+  throw UsageError(fmt::format("{} '{}' is none; write e.g. {}", option, text, example));
+}
+
+/// Folders of what the pipeline makes as it stands now.
+std::set<fs::path> GcCommand::reachable(const Description& description, const Store& store) const {
+  const Plan plan = make_plan(description, pipeline.selection(description));
+  KnownDigests digests(store.side_folder("digests"));
+  const std::vector<StepState> states = survey(plan, store, digests, {}, Store::Check::stamp);
+  std::set<fs::path> folders;
+  for (std::size_t s = 0; s < plan.steps.size(); ++s) {
+    if (!states[s].key) continue;
+    folders.insert(EntryName{plan.steps[s].model, plan.steps[s].program, *states[s].key}.folder());
+  }
+  return folders;
+}
+
+void GcCommand::remove(const Store& store, const Store::Listed& listed, const char* why,
+                       double& freed) const {
+  if (!dry_run && !store.remove(listed.folder)) {
+    fmt::print("kept     {} (somebody is making it)\n", listed.folder.string());
+    return;
+  }
+  fmt::print("{} {} ({}, {})\n", dry_run ? "would go" : "removed ", listed.folder.string(),
+             bytes_text(static_cast<double>(listed.bytes)), why);
+  freed += static_cast<double>(listed.bytes);
+}
+
+/// Removes records of runs that ended long ago.
+void remove_old_runs(const Store& store) {
+  std::error_code ignored;
+  const auto limit = fs::file_time_type::clock::now() -
+                     std::chrono::seconds(static_cast<std::int64_t>(kKeepRunsSeconds));
+  for (const auto& run : fs::directory_iterator(store.side_folder("runs"), ignored)) {
+    const bool is_old = fs::last_write_time(run.path() / "outcomes", ignored) < limit;
+    if (is_old) fs::remove_all(run.path(), ignored);
+  }
+  fs::remove_all(store.side_folder("trash"), ignored);
+}
+
+int GcCommand::run() const {
+  if (older_than.empty() && max_size.empty() && !unreachable) {
+    throw UsageError("say what may go: --unreachable, --older-than 30d, --max-size 10GB");
+  }
+  const double age_s = older_than.empty()
+                           ? std::numeric_limits<double>::infinity()
+                           : amount(older_than, parse_seconds(older_than), "--older-than", "30d");
+  double room = max_size.empty() ? std::numeric_limits<double>::infinity()
+                                 : amount(max_size, parse_bytes(max_size), "--max-size", "10GB");
+  const Description description = pipeline.read();
+  const Store store(description.store);
+  const std::set<fs::path> needed =
+      unreachable ? reachable(description, store) : std::set<fs::path>();
+
+  std::vector<Store::Listed> all = store.list();
+  std::stable_sort(all.begin(), all.end(), [](const Store::Listed& a, const Store::Listed& b) {
+    return a.used_ns > b.used_ns;  // what was used last stays longest
+  });
+  const std::int64_t now = now_ns();
+  double freed = 0;
+  std::size_t kept = 0;
+  for (const Store::Listed& listed : all) {
+    const auto bytes = static_cast<double>(listed.bytes);
+    const double unused_s = static_cast<double>(now - listed.used_ns) * 1e-9;
+    if (unreachable && needed.count(listed.folder) == 0) {
+      remove(store, listed, "not needed by the pipeline", freed);
+    } else if (unused_s > age_s) {
+      remove(store, listed, "not used for long", freed);
+    } else if (bytes > room) {
+      room = 0;  // whatever was used less recently goes too
+      remove(store, listed, "the store would be too large", freed);
+    } else {
+      room -= bytes;
+      ++kept;
+    }
+  }
+  if (!dry_run) remove_old_runs(store);
+  fmt::print("{} {}, {} results left\n", dry_run ? "would free" : "freed", bytes_text(freed), kept);
+  return 0;
+}
+
+}  // namespace
+
+void add_gc_command(CLI::App& app, Action& chosen) {
+  CLI::App* command = app.add_subcommand("gc", "Remove results from the store.");
+  const auto gc = std::make_shared<GcCommand>();
+  gc->pipeline.add_to(*command);
+  command->add_flag("--unreachable", gc->unreachable,
+                    "What the pipeline file, as it is now, does not need.");
+  command->add_option("--older-than", gc->older_than, "What was not used for so long.")
+      ->type_name("TIME");
+  command
+      ->add_option("--max-size", gc->max_size,
+                   "What was used least recently, until the rest fits into this.")
+      ->type_name("SIZE");
+  command->add_flag("-n,--dry-run", gc->dry_run, "Say what would go, and remove nothing.");
+  command->callback([gc, &chosen] { chosen = [gc] { return gc->run(); }; });
+}
+
+}  // namespace strake

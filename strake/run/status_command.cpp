@@ -1,0 +1,119 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/artifact/store/store.h"
+#include "strake/commands.h"
+#include "strake/run/pipeline_options.h"
+#include "strake/run/schema.h"
+#include "strake/run/survey.h"
+
+namespace strake {
+namespace {
+
+struct StatusCommand {
+  PipelineOptions pipeline;
+  bool steps = false;
+  bool verify = false;
+
+  int run() const;
+};
+
+const char* status_word(const StepState& state) {
+  if (state.status == StepState::Status::cached) return "ready";
+  return state.reason.rfind("damaged", 0) == 0 ? "damaged" : "stale";
+}
+
+void print_steps(const Plan& plan, const std::vector<StepState>& states) {
+  for (std::size_t s = 0; s < plan.steps.size(); ++s) {
+    const StepState& state = states[s];
+    if (state.status == StepState::Status::unneeded) continue;
+    fmt::print("{:8} {}: {}\n", status_word(state), plan.steps[s].title,
+               state.entry ? state.entry->file.string() : state.reason);
+  }
+}
+
+/// A row per model and variant, a column per stage.
+void print_targets(const Plan& plan, const std::vector<StepState>& states) {
+  std::vector<std::string> columns;
+  std::vector<std::string> rows;
+  std::map<std::pair<std::string, std::string>, std::string> cells;
+  const auto note = [](std::vector<std::string>& names, const std::string& name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  };
+  for (std::size_t s = 0; s < plan.steps.size(); ++s) {
+    const Step& step = plan.steps[s];
+    if (step.is_part) continue;
+    note(columns, step.rule);
+    for (const std::string& variant : step.variants) {
+      const std::string row = step.model + "/" + variant;
+      note(rows, row);
+      cells[{row, step.rule}] = status_word(states[s]);
+    }
+  }
+  std::size_t width = 6;
+  for (const std::string& row : rows) width = std::max(width, row.size());
+  fmt::print("{:{}}", "target", width);
+  for (const std::string& column : columns) fmt::print("  {:>8}", column);
+  fmt::print("\n");
+  for (const std::string& row : rows) {
+    fmt::print("{:{}}", row, width);
+    for (const std::string& column : columns) {
+      const std::string& cell = cells[{row, column}];
+      fmt::print("  {:>{}}", cell.empty() ? "-" : cell, std::max<std::size_t>(8, column.size()));
+    }
+    fmt::print("\n");
+  }
+}
+
+int StatusCommand::run() const {
+  const Description description = pipeline.read();
+  const Plan plan = make_plan(description, pipeline.selection(description));
+  const Store store(plan.store);
+  KnownDigests digests(store.side_folder("digests"));
+  const std::vector<StepState> states =
+      survey(plan, store, digests, {}, verify ? Store::Check::content : Store::Check::stamp);
+  if (steps) {
+    print_steps(plan, states);
+  } else {
+    print_targets(plan, states);
+  }
+  double bytes = 0;
+  std::size_t entries = 0;
+  for (const Store::Listed& listed : store.list()) {
+    bytes += static_cast<double>(listed.bytes);
+    ++entries;
+  }
+  fmt::print("store {}: {} results, {}\n", store.root().string(), entries, bytes_text(bytes));
+  return 0;
+}
+
+}  // namespace
+
+void add_status_command(CLI::App& app, Action& chosen) {
+  CLI::App* command =
+      app.add_subcommand("status", "Say what of a pipeline is in the store and what is stale.");
+  const auto status = std::make_shared<StatusCommand>();
+  status->pipeline.add_to(*command);
+  command->add_flag("--steps", status->steps, "A line per step, with the file of its result.");
+  command->add_flag("--verify", status->verify, "Read all that is in the store and check it.");
+  command->callback([status, &chosen] { chosen = [status] { return status->run(); }; });
+}
+
+void add_schema_command(CLI::App& app, Action& chosen) {
+  app.add_subcommand("schema", "Print the JSON Schema of pipeline files, for editors.")
+      ->callback([&chosen] {
+        chosen = [] {
+          std::fputs(pipeline_schema().c_str(), stdout);
+          return 0;
+        };
+      });
+}
+
+}  // namespace strake
