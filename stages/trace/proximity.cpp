@@ -18,6 +18,11 @@ double squared_distance(const Vec3& p, const Vec3& a, const Vec3& b) {
   return way_to_segment(p, a, b).squaredNorm();
 }
 
+/// How far along its line a segment is from the point at `arc`.
+double way_along(const LineSegment& segment, double arc) {
+  return std::abs(segment.arc - arc) - 0.5 * (segment.b - segment.a).norm();
+}
+
 }  // namespace
 
 ProximityIndex::ProximityIndex(const TriMesh& mesh, const std::vector<std::uint8_t>& barriers)
@@ -77,14 +82,14 @@ ProximityHit ProximityIndex::query(const ProximityQuery& query) {
     for (Index s = head_[f]; s != kNone; s = segments_[s].next) {
       const LineSegment& segment = segments_[s];
       const bool own = segment.line == query.own_line;
-      if (own && std::abs(segment.arc - query.own_arc) < query.own_skip) continue;
+      if (own && way_along(segment, query.own_arc) < query.own_skip) continue;
       const bool alike =
           query.by_family ? segment.family == query.family : same_direction(segment.direction);
       if (!alike) continue;
       const double d = squared_distance(query.point, segment.a, segment.b);
       if (d < best) {
         best = d;
-        hit = {true, own, 0};
+        hit = {true, segment.line, 0};
       }
     }
     for (Index h = 3 * f; h < 3 * f + 3 && !query.ignore_barriers; ++h) {
@@ -95,7 +100,7 @@ ProximityHit ProximityIndex::query(const ProximityQuery& query) {
       const double d = squared_distance(query.point, a, b);
       if (d < best) {
         best = d;
-        hit = {true, false, 0};
+        hit = {true, kNone, 0};
       }
     }
   }
@@ -116,6 +121,7 @@ std::pair<double, double> ProximityIndex::distances_beside(const ProximityQuery&
   };
   for (const Index f : cell_) {
     for (Index s = head_[f]; s != kNone; s = segments_[s].next) {
+      if (segments_[s].line == query.own_line) continue;
       consider(segments_[s].a, segments_[s].b, segments_[s].direction);
     }
     for (Index h = 3 * f; h < 3 * f + 3; ++h) {

@@ -29,13 +29,14 @@ struct ProximityQuery {
   bool by_family = false;  ///< compare families instead of directions ([MK04] section 4.2)
   Index own_line = kNone;
   double own_arc = 0;
-  double own_skip = 0;  ///< pieces of the own line nearer than this along the line do not count
+  double own_skip = 0;  ///< pieces of the own line nearer than this along the line, to their
+                        ///< nearer ends, do not count
   bool ignore_barriers = false;  ///< for a line that has just left a corner of the feature graph
 };
 
 struct ProximityHit {
   bool conflict = false;
-  bool own = false;  ///< the conflict is with the line itself
+  Index line = kNone;  ///< that the conflict is with; kNone for a barrier
   double distance = 0;
 };
 
@@ -51,11 +52,13 @@ class ProximityIndex {
   void insert(Index face, LineSegment segment);
   /// Takes back the `count` segments inserted last.
   void remove_last(std::size_t count);
+  /// Takes back the segments inserted last, down to `count` of them.
+  void shrink(std::size_t count) { remove_last(segments_.size() - count); }
   [[nodiscard]] std::size_t segment_count() const { return segments_.size(); }
 
   ProximityHit query(const ProximityQuery& query);
   /// Distances to the nearest line of the same direction on the side that `left` points to and on
-  /// the other one; the radius where there is none. Barriers count.
+  /// the other one; the radius where there is none. Barriers count, the own line does not.
   std::pair<double, double> distances_beside(const ProximityQuery& query, const Vec3& left);
   /// Whether `face` was in the cell of the last query.
   [[nodiscard]] bool in_cell(Index face) const { return stamp_[face] == current_; }

@@ -116,7 +116,7 @@ class LineCollector {
         seed.barycentric = gap.barycentric;
         seed.direction = gap.direction;
         seed.fills_gap = true;
-        grow({tracer_.centred(seed)});
+        grow({centred(domain_, seed, tracer_.proximity())});
       });
     }
   }
@@ -198,7 +198,7 @@ TraceResult trace_lines(const TriMesh& mesh, const PrincipalField& field,
   result.report.set("trace.crossings", result.lines.points.size());
   result.report.set("trace.seeds_tried", collector.tried());
   result.report.set("trace.proximity_queries",
-                    static_cast<std::int64_t>(collector.tracer().query_count()));
+                    static_cast<std::int64_t>(collector.tracer().proximity().query_count()));
   result.lines.spacing_along_min = std::move(spacing.along);
   result.lines.spacing_along_max = std::move(spacing.across);
   return result;

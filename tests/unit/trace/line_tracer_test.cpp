@@ -9,6 +9,7 @@
 
 #include "common/geometry/line_chord.h"
 #include "common/geometry/mesh_measures.h"
+#include "tests/support/mesh_support.h"
 #include "tests/unit/trace/fields.h"
 
 namespace strake {
@@ -147,6 +148,31 @@ TEST_F(LinesOnAPlane, LeaveNoTraceWhereTheyAreRefused) {
   TracedLine refused;
   ASSERT_FALSE(tracer.trace(seed_at(0.1, 0.02, Vec3::UnitX()), 1, refused, spawned));
   EXPECT_EQ(spawned.size(), before);
+}
+
+/// Circles on irregular triangles: on the way they turn back over edges and pass vertices, and come
+/// home by any edge.
+TEST_F(LinesOnAPlane, CloseWhereTheFieldGoesAround) {
+  field_ = field_along(mesh_, [](const Vec3& p) { return Vec3(-p.y(), p.x(), 0); });
+  const double edge = support::mean_edge_length(mesh_);
+  for (int i = 0; i < 300; ++i) {
+    const double radius = 0.4 + 0.4 * i / 300;
+    const double angle = 2.4 * i;  // the golden angle: all around
+    const Vec3 p = radius * Vec3(std::cos(angle), std::sin(angle), 0);
+    LineTracer tracer(domain_, barriers_, {});
+    TracedLine line;
+    std::vector<Seed> spawned;
+    ASSERT_TRUE(tracer.trace(seed_at(p.x(), p.y(), Vec3(-p.y(), p.x(), 0)), 0, line, spawned));
+    EXPECT_EQ(line.start_reason, LineEnd::closed) << "circle " << i;
+    EXPECT_EQ(line.end_reason, LineEnd::closed) << "circle " << i;
+    const std::size_t count = line.points.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      EXPECT_TRUE(
+          is_proper_chord(mesh_, line.chord_face[k], line.points[k], line.points[(k + 1) % count]))
+          << "circle " << i << ", chord " << k;
+      EXPECT_NEAR(line_point_position(mesh_, line.points[k]).norm(), radius, edge);
+    }
+  }
 }
 
 }  // namespace

@@ -69,7 +69,8 @@ class RandomSegments {
     std::optional<LineSegment> best;
     double best_distance = query.distance;
     for (const LineSegment& s : all_) {
-      if (s.line == query.own_line && std::abs(s.arc - query.own_arc) < query.own_skip) continue;
+      const double way = std::abs(s.arc - query.own_arc) - (s.b - s.a).norm() / 2;
+      if (s.line == query.own_line && way < query.own_skip) continue;
       const bool alike = query.by_family
                              ? s.family == query.family
                              : std::abs(s.direction.dot(query.direction)) > std::cos(M_PI / 4);
@@ -92,7 +93,7 @@ class RandomSegments {
       if (!hit.conflict || !expected) continue;
       ++conflicts;
       EXPECT_NEAR(hit.distance, distance_to(*expected, query.point), 1e-12);
-      EXPECT_EQ(hit.own, expected->line == query.own_line);
+      EXPECT_EQ(hit.line, expected->line);
     }
     return conflicts;
   }
@@ -237,7 +238,7 @@ TEST(Proximity, EndsAtBarriersWhichCountAsLines) {
   ProximityQuery query = query_along_y(mesh, Vec3(0.44, 0.02, 0));
   const ProximityHit wall_hit = index.query(query);
   EXPECT_TRUE(wall_hit.conflict);
-  EXPECT_FALSE(wall_hit.own);
+  EXPECT_EQ(wall_hit.line, kNone);
   EXPECT_NEAR(wall_hit.distance, 0.06, 1e-12);
   query.ignore_barriers = true;
   EXPECT_FALSE(index.query(query).conflict) << "nothing is seen across it all the same";

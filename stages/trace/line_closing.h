@@ -1,0 +1,24 @@
+#pragma once
+
+#include "stages/trace/half_line.h"
+
+namespace strake {
+
+/// How directly a line must head for its start to join it: largest angle between its heading, the
+/// way home and the direction it started in, as a cosine.
+const double kCloseCosine = std::cos(25 * M_PI / 180);
+/// The same where the line would end otherwise.
+const double kCloseCosineLast = std::cos(40 * M_PI / 180);
+
+/// Whether the head has come so far that its start, when near, is one to come back to.
+bool can_close(const LineHead& head, const LocalSpacing& spacing);
+
+/// Closes a line that comes back to its start: goes straight to the first point near its seed that
+/// a chord can reach, and drops the points before that one.
+/// \param half  changed only where it closes; then `end` is `closed` and the chord from its last
+///              point to its first lies in `faces.front()`
+/// \pre the last query of `proximity` was around the head
+bool close_line(const TraceDomain& domain, const ProximityIndex& proximity, LineWalker& walker,
+                const LineHead& head, double least_cosine, HalfLine& half);
+
+}  // namespace strake
