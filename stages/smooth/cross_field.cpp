@@ -1,12 +1,13 @@
 #include "stages/smooth/cross_field.h"
 
-#include <Eigen/IterativeLinearSolvers>
-#include <Eigen/SparseCore>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <complex>
 
 #include "common/geometry/frames.h"
 #include "common/geometry/mesh_measures.h"
+#include "stages/smooth/conjugate_gradients.h"
 
 namespace strake {
 namespace {
@@ -15,81 +16,85 @@ using Complex = std::complex<double>;
 
 constexpr double kFeatureWeight = 100;  ///< against Dirichlet weights of order one
 constexpr double kBoundaryWeight = 5;  ///< scan boundaries are ragged: follow, but not at any price
-constexpr double kTolerance = 1e-5;
-constexpr int kMaxIterations = 2000;
 
-/// Cotangent of the angle opposite to half-edge h, kept within bounds that slivers would leave.
-double bounded_cotangent(const TriMesh& mesh, Index h) {
-  const double angle = corner_angle(mesh, TriMesh::prev(h));
-  return std::clamp(std::cos(angle) / std::max(std::sin(angle), 1e-9), 0.05, 5.0);
+/// Half the cotangent of the angle opposite to half-edge h, kept within bounds that slivers would
+/// leave: the weight of the edge in the Dirichlet energy, as far as this face is concerned.
+double dirichlet_weight(const TriMesh& mesh, Index h) {
+  const Vec3& apex = mesh.positions[mesh.from(TriMesh::prev(h))];
+  const Vec3 a = mesh.positions[mesh.from(h)] - apex;
+  const Vec3 b = mesh.positions[mesh.to(h)] - apex;
+  const double cotangent = a.dot(b) / std::max(a.cross(b).norm(), 1e-9 * a.norm() * b.norm());
+  return 0.5 * std::clamp(cotangent, 0.05, 5.0);
+}
+
+/// The linear system whose solution is the cross of every wedge, as cross_power in its own frame.
+struct CrossSystem {
+  HermitianMatrix matrix;
+  std::vector<Complex> right;
+};
+
+CrossSystem cross_system(const TriMesh& mesh, const WedgeGraph& graph,
+                         const std::vector<double>& areas, double stiffness,
+                         const PrincipalField& field, std::vector<Complex>& principal) {
+  const auto n = static_cast<std::size_t>(graph.size());
+  std::vector<TangentFrame> frames(n);
+  tbb::parallel_for(Index{0}, graph.size(), [&](Index w) {
+    frames[w] = tangent_frame(field.normal[w]);
+    principal[w] = cross_power(frames[w].tangent_from_world(field.t_min[w]));
+  });
+  CrossSystem system = {{graph.offsets, graph.neighbours,
+                         std::vector<Complex>(graph.neighbours.size()), std::vector<double>(n)},
+                        std::vector<Complex>(n)};
+  tbb::parallel_for(Index{0}, graph.size(), [&](Index w) {
+    const double bend = (field.k_max[w] - field.k_min[w]) * field.wedge_confidence[w];
+    double held = stiffness * bend * bend * areas[w];  // to a direction
+    Complex target = held * principal[w];
+    double diagonal = 0;
+    for (Index at = graph.offsets[w]; at < graph.offsets[w + 1]; ++at) {
+      const Index h = graph.halfedges[at];
+      const Index other = graph.neighbours[at];
+      const Vec3 edge = mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)];
+      const Complex here = cross_power(frames[w].tangent_from_world(edge));
+      const Complex there = cross_power(frames[other].tangent_from_world(edge));
+      double weight = dirichlet_weight(mesh, h);
+      if (mesh.is_barrier(h)) {
+        const double hold = mesh.is_boundary(h) ? kBoundaryWeight : kFeatureWeight;
+        held += hold;
+        target += hold * here;
+      } else {
+        weight += dirichlet_weight(mesh, mesh.twin[h]);
+      }
+      diagonal += weight;
+      system.matrix.values[at] = -weight * here * std::conj(there);
+    }
+    // A trace of weight everywhere keeps components without any reliable direction solvable.
+    const double trace = 1e-9 * std::max(diagonal, 1e-30);
+    system.matrix.diagonal[w] = diagonal + held + trace;
+    system.right[w] = target + trace * principal[w];
+  });
+  return system;
 }
 
 }  // namespace
 
-Index extend_cross_field(const TriMesh& mesh, const std::vector<double>& areas, double stiffness,
+Index extend_cross_field(const TriMesh& mesh, const WedgeGraph& graph,
+                         const std::vector<double>& areas, double stiffness,
                          PrincipalField& field) {
-  const Index n = mesh.wedge_count();
-  std::vector<TangentFrame> frames(n);
-  for (Index w = 0; w < n; ++w) frames[w] = tangent_frame(field.normal[w]);
+  std::vector<Complex> solution(static_cast<std::size_t>(graph.size()));
+  const CrossSystem system = cross_system(mesh, graph, areas, stiffness, field, solution);
+  const Index iterations = solve(system.matrix, system.right, {}, solution);
 
-  std::vector<double> weight(n, 0);
-  std::vector<Complex> target(n, Complex(0, 0));
-  for (Index w = 0; w < n; ++w) {
-    const double bend = (field.k_max[w] - field.k_min[w]) * field.wedge_confidence[w];
-    weight[w] = stiffness * bend * bend * areas[w];
-    target[w] = weight[w] * cross_power(frames[w].tangent_from_world(field.t_min[w]));
-  }
-
-  std::vector<Eigen::Triplet<Complex>> entries;
-  entries.reserve(static_cast<std::size_t>(mesh.halfedge_count()) * 2 + n);
-  std::vector<double> diagonal(n, 0);
-  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
-    const Index i = mesh.wedge_of(h);
-    const Index j = mesh.wedge_of(TriMesh::next(h));
-    const Vec3 edge = mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)];
-    const Complex at_i = cross_power(frames[i].tangent_from_world(edge));
-    const Complex at_j = cross_power(frames[j].tangent_from_world(edge));
-    const double dirichlet = 0.5 * bounded_cotangent(mesh, h);
-    diagonal[i] += dirichlet;
-    diagonal[j] += dirichlet;
-    const Complex j_from_i = at_j * std::conj(at_i);
-    entries.emplace_back(j, i, -dirichlet * j_from_i);
-    entries.emplace_back(i, j, -dirichlet * std::conj(j_from_i));
-    if (mesh.is_barrier(h)) {
-      const double w = mesh.is_boundary(h) ? kBoundaryWeight : kFeatureWeight;
-      weight[i] += w;
-      weight[j] += w;
-      target[i] += w * at_i;
-      target[j] += w * at_j;
-    }
-  }
-  Eigen::VectorXcd right(n);
-  Eigen::VectorXcd guess(n);
-  for (Index w = 0; w < n; ++w) {
-    // A trace of weight everywhere keeps components without any reliable direction solvable.
-    const double trace = 1e-9 * std::max(diagonal[w], 1e-30);
-    entries.emplace_back(w, w, Complex(diagonal[w] + weight[w] + trace, 0));
-    const Complex own = cross_power(frames[w].tangent_from_world(field.t_min[w]));
-    right[w] = target[w] + trace * own;
-    guess[w] = own;
-  }
-  Eigen::SparseMatrix<Complex> matrix(n, n);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  Eigen::ConjugateGradient<Eigen::SparseMatrix<Complex>, Eigen::Lower | Eigen::Upper> solver;
-  solver.setTolerance(kTolerance);
-  solver.setMaxIterations(kMaxIterations);
-  solver.compute(matrix);
-  const Eigen::VectorXcd solution = solver.solveWithGuess(right, guess);
-
-  field.cross.resize(n);
-  for (Index w = 0; w < n; ++w) {
-    const Vec2 principal = frames[w].tangent_from_world(field.t_min[w]);
-    const bool usable = std::isfinite(std::norm(solution[w])) && std::norm(solution[w]) > 0;
+  field.cross.resize(solution.size());
+  tbb::parallel_for(Index{0}, graph.size(), [&](Index w) {
+    const TangentFrame frame = tangent_frame(field.normal[w]);
+    const Vec2 principal = frame.tangent_from_world(field.t_min[w]);
+    const double size = std::norm(solution[w]);
+    const bool usable = std::isfinite(size) && size > 0;
     const Vec2 arm = usable ? cross_arm(solution[w], principal) : principal;
-    field.cross[w] = frames[w].world_from_tangent(arm).normalized();
-  }
+    field.cross[w] = frame.world_from_tangent(arm).normalized();
+  });
   field.cross_extended = true;
-  return static_cast<Index>(solver.iterations());
+  return iterations;
 }
 
 }  // namespace strake

@@ -61,31 +61,6 @@ void set_confidence(const TriMesh& mesh, const std::vector<Vec3>& normals, Princ
   field.wedge_confidence = std::move(sum);
 }
 
-/// Neighbours of every wedge within its smooth piece of surface, in compressed rows.
-struct WedgeGraph {
-  std::vector<Index> offsets;
-  std::vector<Index> neighbours;
-};
-
-WedgeGraph wedge_graph(const TriMesh& mesh) {
-  WedgeGraph graph;
-  graph.offsets.assign(mesh.wedge_count() + 1, 0);
-  const auto each = [&](auto&& use) {
-    for (Index h = 0; h < mesh.halfedge_count(); ++h) {
-      const Index i = mesh.wedge_of(h);
-      const Index j = mesh.wedge_of(TriMesh::next(h));
-      use(i, j);
-      if (mesh.is_barrier(h)) use(j, i);  // the opposite half-edge belongs to other wedges
-    }
-  };
-  each([&](Index i, Index) { ++graph.offsets[i + 1]; });
-  for (Index w = 0; w < mesh.wedge_count(); ++w) graph.offsets[w + 1] += graph.offsets[w];
-  graph.neighbours.resize(graph.offsets.back());
-  std::vector<Index> fill(graph.offsets.begin(), graph.offsets.end() - 1);
-  each([&](Index i, Index j) { graph.neighbours[fill[i]++] = j; });
-  return graph;
-}
-
 /// One step of the operator of [MK04] section 4.1. Differs: neighbours' tensors are turned into
 /// the tangent plane of the wedge first, so that bending does not leak into the normal direction.
 std::vector<Tensor> smoothing_step(const WedgeGraph& graph, const PrincipalField& field,
@@ -151,7 +126,7 @@ SmoothResult smooth_tensors(const TriMesh& mesh, const TensorField& tensor,
   if (options.extension == "cross") {
     observer.report("extending the cross field", 0);
     const Index iterations =
-        extend_cross_field(mesh, wedge_areas(mesh), options.field_stiffness, field);
+        extend_cross_field(mesh, graph, wedge_areas(mesh), options.field_stiffness, field);
     result.report.set("smooth.solver_iterations", static_cast<std::int64_t>(iterations));
   } else {
     field.cross = field.t_min;
