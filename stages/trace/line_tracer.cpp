@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "common/geometry/line_chord.h"
 #include "stages/trace/line_closing.h"
@@ -154,10 +155,13 @@ std::optional<LineTracer::Halves> LineTracer::trace_halves(const Seed& seed, Ind
                 head.family};
 }
 
-/// Whether a half line ends where it came too close to a closed line, or to the line's other end.
-bool LineTracer::stops_beside_ring(const HalfLine& half, Index line) const {
-  return half.end == LineEnd::proximity &&
-         (half.stopped_by == line || rings_.contains(half.stopped_by));
+/// Whether a line ends on both sides beside closed lines, or beside its own other end.
+bool LineTracer::is_arc_among_rings(const Halves& halves, Index line) const {
+  const auto stops_there = [&](const HalfLine& half) {
+    return half.end == LineEnd::proximity &&
+           (half.stopped_by == line || rings_.contains(half.stopped_by));
+  };
+  return stops_there(halves.forward) && stops_there(halves.backward);
 }
 
 /// The widest gap between the lines on both sides of a half line, in wanted distances; 0 where
@@ -182,14 +186,21 @@ double LineTracer::widest_gap(const HalfLine& half, Index line) {
 /// stays an arc where that does not close it.
 std::optional<LineTracer::Halves> LineTracer::trace_ring(const Seed& seed, Index line,
                                                          const Halves& arc) {
+  const std::size_t segments_after = proximity_.segment_count();
   const std::size_t segments_before =
-      proximity_.segment_count() - arc.forward.points.size() - arc.backward.points.size();
+      segments_after - arc.forward.points.size() - arc.backward.points.size();
   const double gap = std::max(widest_gap(arc.forward, line), widest_gap(arc.backward, line));
   proximity_.shrink(segments_before);
-  if (gap < 2 * settings_.gap_fraction) return std::nullopt;
+  const bool is_alone = arc.forward.stopped_by == line && arc.backward.stopped_by == line;
+  if (gap < 2 * settings_.gap_fraction && !is_alone) return std::nullopt;
   const double fraction = std::min(settings_.ring_fraction, settings_.stop_fraction);
   auto ring = trace_halves(centred(domain_, seed, proximity_), line, fraction);
-  if (ring && ring->forward.end == LineEnd::closed) return ring;
+  // A line that only meets itself is a ring all but closed, or a spiral, as on a knotted tube: that
+  // must not wind on more closely.
+  const std::size_t longest = is_alone ? 3 * (segments_after - segments_before) / 2 : SIZE_MAX;
+  if (ring && ring->forward.end == LineEnd::closed && ring->forward.points.size() <= longest) {
+    return ring;
+  }
   proximity_.shrink(segments_before);
   return trace_halves(seed, line, settings_.stop_fraction);
 }
@@ -198,8 +209,7 @@ bool LineTracer::trace(const Seed& seed, Index line, TracedLine& result,
                        std::vector<Seed>& spawned) {
   const std::size_t segments_before = proximity_.segment_count();
   std::optional<Halves> halves = trace_halves(seed, line, settings_.stop_fraction);
-  if (halves && !seed.is_anchored() && stops_beside_ring(halves->forward, line) &&
-      stops_beside_ring(halves->backward, line)) {
+  if (halves && !seed.is_anchored() && is_arc_among_rings(*halves, line)) {
     halves = trace_ring(seed, line, *halves);
   }
   if (!halves) return false;

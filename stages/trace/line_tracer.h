@@ -63,7 +63,7 @@ class LineTracer {
   void cover(const LineHead& head, const LocalSpacing& spacing);
   void trace_half(LineHead head, bool may_close, double stop_fraction, HalfLine& half);
   std::optional<Halves> trace_halves(const Seed& seed, Index line, double stop_fraction);
-  bool stops_beside_ring(const HalfLine& half, Index line) const;
+  bool is_arc_among_rings(const Halves& halves, Index line) const;
   double widest_gap(const HalfLine& half, Index line);
   std::optional<Halves> trace_ring(const Seed& seed, Index line, const Halves& arc);
 
