@@ -20,6 +20,7 @@ void print_artifact(const std::string& path) {
   fmt::print("  kind       {}, format {}\n", kind_name(info.kind), info.format_version);
   fmt::print("  mesh       {}\n", info.mesh_id);
   fmt::print("  digest     {}\n", digest_file(path));
+  fmt::print("  content    {}\n", info.content);
   fmt::print("  made by    {}, version {}\n", info.provenance.stage, info.provenance.stage_version);
   for (const auto& option : info.provenance.options) {
     fmt::print("    --{} {}{}\n", option.name, option.value.empty() ? "(none)" : option.value,

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "common/artifact/digest.h"
+#include "common/artifact/artifact.h"
 #include "common/artifact/text_file.h"
 #include "common/core/error.h"
 
@@ -71,7 +71,7 @@ void Pipeline::keep(const Stage& stage) {
     const fs::path path = folder_ / (stage.output.name + ".hdf");
     Entry& entry = values_.at(stage.output.name);
     save_value(path, *entry.value, &get<TriMesh>("mesh"), record.provenance);
-    entry.digest = digest_file(path);
+    entry.digest = content_digest(path);
   }
   write_text(folder_ / (stage.name + ".json"), record_json(record));
 }

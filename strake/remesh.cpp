@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/artifact/digest.h"
+#include "common/artifact/artifact.h"
 #include "common/artifact/text_file.h"
 #include "common/core/error.h"
 #include "stages/evaluate/stage.h"
@@ -144,7 +144,7 @@ void RemeshCommand::run() {
   console.report("reading " + input, 0);
   Pipeline pipeline(console);
   if (!keep.empty()) pipeline.keep_in(keep);
-  const std::string digest = digest_file(input);
+  const std::string digest = content_digest(input);
   pipeline.provide("input", load_value(PortKind::polygons, input), input, digest);
   for (const Stage* stage : {&import, &tensor, &smooth}) {
     pipeline.run(*stage);

@@ -58,12 +58,19 @@ struct ArtifactInfo {
   ArtifactKind kind = ArtifactKind::mesh;
   std::int64_t format_version = kFormatVersion;
   std::string mesh_id;
+  std::string content;  ///< `content_digest`
   Provenance provenance;
   std::vector<Dataset> datasets;  ///< of the artifact's own group
 };
 
 /// \throw InputError where the file is no artifact, damaged, or newer than this program
 ArtifactInfo read_artifact_info(const std::filesystem::path& path);
+
+/// Names what a file says: of an artifact the digest of its data, however it was made; of another
+/// file `digest_file`. Stages note it of their inputs, so that what comes out the same in another
+/// way changes nothing further on.
+/// \throw InputError where the file cannot be read
+std::string content_digest(const std::filesystem::path& path);
 
 /// Whether the file begins as an HDF5 file does; false where it cannot be read.
 bool is_artifact(const std::filesystem::path& path);

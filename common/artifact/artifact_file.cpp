@@ -9,6 +9,7 @@
 namespace strake {
 namespace {
 
+constexpr const char* kContent = "content";
 constexpr std::array<const char*, 5> kKindNames = {"mesh", "tensor", "field", "lines", "quads"};
 
 /// Kind and version of an open file. \throw InputError where either is unknown
@@ -28,6 +29,12 @@ ArtifactKind read_kind(const hdf5::Reader& file) {
   file.refuse("kind", "is '" + kind + "', which this program does not know");
 }
 
+/// The digest that `ArtifactWriter::commit` wrote; of a file from before there was one, of its
+/// bytes.
+std::string content_of(const hdf5::Reader& file, const std::filesystem::path& path) {
+  return file.has_attribute(kContent) ? file.text_attribute(kContent) : digest_file(path);
+}
+
 }  // namespace
 
 std::string kind_name(ArtifactKind kind) { return kKindNames[static_cast<std::size_t>(kind)]; }
@@ -35,6 +42,8 @@ std::string kind_name(ArtifactKind kind) { return kKindNames[static_cast<std::si
 ArtifactWriter::ArtifactWriter(const std::filesystem::path& path, ArtifactKind kind,
                                const std::string& mesh_id, const Provenance& provenance)
     : target_(path), file_(target_.temporary(), path), group_("/" + kind_name(kind)) {
+  const std::string identity = kind_name(kind) + " " + mesh_id;
+  content_.add(identity.c_str(), identity.size() + 1);
   file_.attribute("/", "kind", kind_name(kind));
   file_.attribute("/", "format_version", kFormatVersion);
   file_.attribute("/", "mesh_id", mesh_id);
@@ -49,9 +58,9 @@ ArtifactWriter::ArtifactWriter(const std::filesystem::path& path, ArtifactKind k
 
 void ArtifactWriter::counts(std::size_t points, std::size_t cells, std::size_t connectivity) {
   using Count = std::vector<std::int64_t>;
-  file_.dataset("/VTKHDF/NumberOfPoints", Count{static_cast<std::int64_t>(points)});
-  file_.dataset("/VTKHDF/NumberOfCells", Count{static_cast<std::int64_t>(cells)});
-  file_.dataset("/VTKHDF/NumberOfConnectivityIds", Count{static_cast<std::int64_t>(connectivity)});
+  dataset("/VTKHDF/NumberOfPoints", Count{static_cast<std::int64_t>(points)});
+  dataset("/VTKHDF/NumberOfCells", Count{static_cast<std::int64_t>(cells)});
+  dataset("/VTKHDF/NumberOfConnectivityIds", Count{static_cast<std::int64_t>(connectivity)});
 }
 
 void ArtifactWriter::wedge_grid(const TriMesh& mesh) {
@@ -65,6 +74,7 @@ void ArtifactWriter::wedge_grid(const TriMesh& mesh) {
 }
 
 bool ArtifactWriter::commit() {
+  file_.attribute("/", kContent, content_.text());
   file_.finish();
   return target_.commit();
 }
@@ -110,6 +120,7 @@ ArtifactInfo read_artifact_info(const std::filesystem::path& path) {
   info.kind = read_kind(file);
   info.format_version = file.integer_attribute("format_version");
   info.mesh_id = file.text_attribute("mesh_id");
+  info.content = content_of(file, path);
   info.provenance = Provenance::from_json(file.text_attribute("provenance"));
   const std::string group = "/" + kind_name(info.kind);
   constexpr std::array<const char*, 4> kTypes = {"u8", "i32", "i64", "f64"};
@@ -118,6 +129,10 @@ ArtifactInfo read_artifact_info(const std::filesystem::path& path) {
                              kTypes[static_cast<std::size_t>(dataset.scalar)]});
   }
   return info;
+}
+
+std::string content_digest(const std::filesystem::path& path) {
+  return is_artifact(path) ? content_of(hdf5::Reader(path), path) : digest_file(path);
 }
 
 bool is_artifact(const std::filesystem::path& path) {

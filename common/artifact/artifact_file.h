@@ -6,6 +6,7 @@
 
 #include "common/artifact/artifact.h"
 #include "common/artifact/atomic_file.h"
+#include "common/artifact/digest.h"
 #include "common/artifact/hdf5_file.h"
 
 /// What all kinds of artifacts share: root attributes, the group that viewers read, checks.
@@ -21,7 +22,7 @@ class ArtifactWriter {
   template <class Row>
   void own(const std::string& name, const std::vector<Row>& rows,
            hdf5::Layout layout = hdf5::Layout::table) {
-    file_.dataset(group_ + "/" + name, rows, layout);
+    dataset(group_ + "/" + name, rows, layout);
   }
   /// Makes an own dataset visible to viewers under `shown`, e.g. "PointData/normal".
   void show(const std::string& name, const std::string& shown) {
@@ -34,7 +35,7 @@ class ArtifactWriter {
   /// Writes a dataset that only viewers need.
   template <class Row>
   void view(const std::string& shown, const std::vector<Row>& rows) {
-    file_.dataset("/VTKHDF/" + shown, rows);
+    dataset("/VTKHDF/" + shown, rows);
   }
   /// Writes the cells that viewers show.
   /// \param connectivity  points of all cells, one after the other
@@ -43,10 +44,10 @@ class ArtifactWriter {
   template <class Row>
   void grid(const std::vector<Vec3>& points, const std::vector<Row>& connectivity,
             const std::vector<Index>& offsets, const std::vector<std::uint8_t>& types) {
-    file_.dataset("/VTKHDF/Points", points);
-    file_.dataset("/VTKHDF/Connectivity", connectivity, hdf5::Layout::flat);
-    file_.dataset("/VTKHDF/Offsets", offsets);
-    file_.dataset("/VTKHDF/Types", types);
+    dataset("/VTKHDF/Points", points);
+    dataset("/VTKHDF/Connectivity", connectivity, hdf5::Layout::flat);
+    dataset("/VTKHDF/Offsets", offsets);
+    dataset("/VTKHDF/Types", types);
     counts(points.size(), types.size(), static_cast<std::size_t>(offsets.back()));
   }
   /// Writes the surface with one point per wedge, so that fields show their jumps at creases.
@@ -55,11 +56,21 @@ class ArtifactWriter {
   bool commit();
 
  private:
+  template <class Row>
+  void dataset(const std::string& name, const std::vector<Row>& rows,
+               hdf5::Layout layout = hdf5::Layout::table) {
+    const std::uint64_t bytes = rows.size() * sizeof(Row);
+    content_.add(name.c_str(), name.size() + 1);
+    content_.add(&bytes, sizeof bytes);
+    content_.add(rows.data(), bytes);
+    file_.dataset(name, rows, layout);
+  }
   void counts(std::size_t points, std::size_t cells, std::size_t connectivity);
 
   AtomicFile target_;
   hdf5::Writer file_;
   std::string group_;
+  Digest content_;  ///< of all but the provenance
 };
 
 /// An artifact being read: kind and version are checked, datasets are checked as they are read.

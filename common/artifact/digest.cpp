@@ -4,7 +4,6 @@
 
 #include <cstdio>
 #include <fstream>
-#include <memory>
 #include <vector>
 
 #include "common/core/error.h"
@@ -26,22 +25,28 @@ std::string to_text(const XXH128_hash_t& hash) {
 
 }  // namespace
 
+Digest::Digest() : state_(XXH3_createState()) { XXH3_128bits_reset(state_); }
+
+Digest::~Digest() { XXH3_freeState(state_); }
+
+void Digest::add(const void* data, std::size_t bytes) { XXH3_128bits_update(state_, data, bytes); }
+
+std::string Digest::text() const { return to_text(XXH3_128bits_digest(state_)); }
+
 std::string digest_text(std::string_view text) {
   return to_text(XXH3_128bits(text.data(), text.size()));
 }
 
 std::string digest_file(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
-  const std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state(XXH3_createState(),
-                                                                              XXH3_freeState);
-  XXH3_128bits_reset(state.get());
+  Digest digest;
   std::vector<char> block(1 << 20);
   while (stream) {
     stream.read(block.data(), static_cast<std::streamsize>(block.size()));
-    XXH3_128bits_update(state.get(), block.data(), static_cast<std::size_t>(stream.gcount()));
+    digest.add(block.data(), static_cast<std::size_t>(stream.gcount()));
   }
   if (!stream.eof()) throw InputError(path.string() + ": cannot be read; check name and rights");
-  return to_text(XXH3_128bits_digest(state.get()));
+  return digest.text();
 }
 
 }  // namespace strake

@@ -231,6 +231,10 @@ bool Reader::has(const std::string& name) const {
   return H5Lexists(id_, name.c_str(), H5P_DEFAULT) > 0;
 }
 
+bool Reader::has_attribute(const std::string& name) const {
+  return H5Aexists(id_, name.c_str()) > 0;
+}
+
 std::string Reader::text_attribute(const std::string& name) const {
   const Handle attribute(H5Aopen(id_, name.c_str(), H5P_DEFAULT), H5Aclose);
   if (!attribute.valid()) fail(name, "is missing: not an artifact of strake, or damaged");

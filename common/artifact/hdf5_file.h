@@ -125,6 +125,8 @@ class Reader : public File {
   explicit Reader(const std::filesystem::path& path);
 
   [[nodiscard]] bool has(const std::string& name) const;
+  /// Attributes of the root.
+  [[nodiscard]] bool has_attribute(const std::string& name) const;
   [[nodiscard]] std::string text_attribute(const std::string& name) const;
   [[nodiscard]] std::int64_t integer_attribute(const std::string& name) const;
   /// The datasets of a group, by name.

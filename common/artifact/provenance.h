@@ -18,7 +18,7 @@ struct Provenance {
   };
   struct InputRecord {
     std::string role;    ///< "mesh", "field", ...
-    std::string digest;  ///< `digest_file` of the file read
+    std::string digest;  ///< `content_digest` of the file read
     friend bool operator==(const InputRecord&, const InputRecord&) = default;
   };
 

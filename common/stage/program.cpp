@@ -13,7 +13,7 @@
 #include <map>
 #include <new>
 
-#include "common/artifact/digest.h"
+#include "common/artifact/artifact.h"
 #include "common/artifact/text_file.h"
 #include "common/core/error.h"
 
@@ -92,7 +92,7 @@ Inputs load_inputs(const Stage& stage, const Paths& paths, Provenance& provenanc
     if (path.empty()) continue;
     console.report("reading " + path, 0);
     inputs.set(port.name, std::make_shared<const Value>(load_value(port.kind, path)), path);
-    provenance.inputs.push_back({port.name, digest_file(path)});
+    provenance.inputs.push_back({port.name, content_digest(path)});
   }
   return inputs;
 }

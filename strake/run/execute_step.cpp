@@ -94,11 +94,12 @@ class StepRun {
         }
         input.file = made->file;
         input.digest = made->digest;
+        input.content = made->content;
         input.entry = made->entry;
       }
       const bool exists = fs::exists(input.file);
       const std::string digest = exists ? digest_file(input.file) : "";
-      if (input.digest.empty()) input.digest = digest;  // a model file: what it is now counts
+      if (input.digest.empty()) input.digest = input.content = digest;  // a model: as it is now
       if (exists && digest == input.digest) continue;
       if (input.entry) store_.withdraw(*input.entry);
       throw DamagedInput(fmt::format("'{}' is {}; it will be made again", input.file.string(),
@@ -174,7 +175,7 @@ class StepRun {
     }
     Provenance provenance = provenance_of(stage);
     for (const OrderedInput& input : order_.inputs) {
-      provenance.inputs.push_back({input.port, input.digest});
+      provenance.inputs.push_back({input.port, input.content});
     }
     const EntryName name{order_.model, order_.stage,
                          key_of(provenance, fs::path(order_.file_name).extension().string())};
@@ -184,7 +185,12 @@ class StepRun {
     if (!damage.empty()) log("the store's artifact is not used: " + damage);
     if (stored && !order_.forced) {
       store_.touch(*stored);
-      StepOutcome outcome{StepOutcome::Kind::found, "", 0, name, stored->file, stored->digest};
+      StepOutcome outcome;
+      outcome.kind = StepOutcome::Kind::found;
+      outcome.entry = name;
+      outcome.file = stored->file;
+      outcome.digest = stored->digest;
+      outcome.content = stored->content;
       log("found in the store: " + stored->file.string());
       return outcome;
     }
@@ -227,6 +233,7 @@ class StepRun {
                       entry.file.string()));
     }
     entry.digest = digest_file(entry.file);
+    entry.content = content_digest(entry.file);
     entry.seconds = ended.seconds;
     entry.peak_bytes = ended.peak_bytes;
     if (before && before->digest != entry.digest) {
@@ -236,6 +243,7 @@ class StepRun {
     outcome.kind = StepOutcome::Kind::ran;
     outcome.file = entry.file;
     outcome.digest = entry.digest;
+    outcome.content = entry.content;
     return outcome;
   }
 

@@ -37,6 +37,7 @@ Json to_json(const std::vector<OrderedInput>& inputs) {
     if (input.from.empty()) {
       json["file"] = input.file.string();
       json["digest"] = input.digest;
+      json["content"] = input.content;
       if (input.entry) json["entry"] = to_json(*input.entry);
     } else {
       json["from"] = input.from;
@@ -54,6 +55,7 @@ std::vector<OrderedInput> inputs_from(const Json& list) {
     input.from = json.value("from", "");
     input.file = json.value("file", "");
     input.digest = json.value("digest", "");
+    input.content = json.value("content", "");
     if (json.contains("entry")) input.entry = entry_from(json.at("entry"));
     inputs.push_back(std::move(input));
   }
@@ -147,6 +149,7 @@ void RunFolder::write_outcome(const std::string& id, const StepOutcome& outcome)
                      {"entry", to_json(outcome.entry)},
                      {"file", outcome.file.string()},
                      {"digest", outcome.digest},
+                     {"content", outcome.content},
                      {"seconds", outcome.seconds},
                      {"peak_bytes", outcome.peak_bytes}};
   constexpr bool kAsciiOnly = true;
@@ -166,6 +169,7 @@ std::optional<StepOutcome> RunFolder::outcome(const std::string& id) const {
     outcome.entry = entry_from(json.at("entry"));
     outcome.file = json.at("file").get<std::string>();
     outcome.digest = json.at("digest");
+    outcome.content = json.at("content");
     outcome.seconds = json.at("seconds");
     outcome.peak_bytes = json.at("peak_bytes");
     return outcome;
@@ -205,6 +209,7 @@ std::vector<StepOrder> stale_orders(const Plan& plan, const std::vector<StepStat
     } else {
       input.file = states[source].entry->file;
       input.digest = states[source].entry->digest;
+      input.content = states[source].entry->content;
       input.entry = EntryName{maker.model, maker.program, *states[source].key};
     }
     return input;

@@ -17,9 +17,10 @@ namespace strake {
 /// An artifact that a step works on.
 struct OrderedInput {
   std::string port;
-  std::string from;            ///< id of the step that makes it; "" where it is there already
-  std::filesystem::path file;  ///< otherwise
-  std::string digest;
+  std::string from;                ///< id of the step that makes it; "" where it is there already
+  std::filesystem::path file;      ///< otherwise
+  std::string digest;              ///< of its bytes
+  std::string content;             ///< `content_digest`
   std::optional<EntryName> entry;  ///< where the file belongs to the store
 };
 
@@ -54,7 +55,8 @@ struct StepOutcome {
   int exit_code = 0;
   EntryName entry;
   std::filesystem::path file;
-  std::string digest;
+  std::string digest;   ///< of the file's bytes
+  std::string content;  ///< `content_digest` of the file
   double seconds = 0;
   std::int64_t peak_bytes = 0;
 };

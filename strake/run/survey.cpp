@@ -68,7 +68,7 @@ class Surveyor {
       if (input.step == kNoStep) {
         provenance.inputs.push_back({input.port, digests_.digest(input.file)});
       } else if (const auto& entry = states_[input.step].entry) {
-        provenance.inputs.push_back({input.port, entry->digest});
+        provenance.inputs.push_back({input.port, entry->content});
       } else {
         state.reason = "its input '" + input.port + "' has to be made first";
         return hide_part(s);

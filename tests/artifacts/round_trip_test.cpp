@@ -72,6 +72,23 @@ TEST_P(RoundTrip, SaysWhatItIsAndHowItWasMade) {
   for (const auto& dataset : info.datasets) EXPECT_GT(dataset.rows, 0) << dataset.name;
 }
 
+TEST_P(RoundTrip, ContentIsWhatItSaysHoweverItWasMade) {
+  Provenance other = make_provenance();
+  other.stage_version += 1;
+  Values moved = make_values();
+  moved.mesh.positions.front().x() += 1;
+  moved.tensor.normal.front().x() += 1;
+  moved.field.normal.front().x() += 1;
+  moved.lines.spacing_along_min.front() += 1;
+  moved.quads.mesh.positions.front().x() += 1;
+  write(file("a.hdf"), GetParam(), make_values(), make_provenance());
+  write(file("b.hdf"), GetParam(), make_values(), other);
+  write(file("c.hdf"), GetParam(), moved, make_provenance());
+  EXPECT_NE(digest_file(file("a.hdf")), digest_file(file("b.hdf")));
+  EXPECT_EQ(content_digest(file("a.hdf")), content_digest(file("b.hdf")));
+  EXPECT_NE(content_digest(file("a.hdf")), content_digest(file("c.hdf")));
+}
+
 TEST_P(RoundTrip, LeavesNothingElseBehind) {
   write(file("a.hdf"), GetParam(), make_values(), make_provenance());
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);

@@ -31,6 +31,7 @@ std::string manifest_text(const Entry& entry) {
       {"key", entry.key},
       {"file", entry.file.filename().string()},
       {"digest", entry.digest},
+      {"content", entry.content},
       {"size", entry.stamp.size},
       {"modified_ns", entry.stamp.modified_ns},
       {"changed_ns", entry.stamp.changed_ns},
@@ -48,6 +49,7 @@ Entry parse_manifest(const fs::path& folder, std::istream& stream) {
   entry.key = json.at("key");
   entry.file = folder / fs::path(json.at("file").get<std::string>()).filename();
   entry.digest = json.at("digest");
+  entry.content = json.at("content");
   entry.stamp = {json.at("size"), json.at("modified_ns"), json.at("changed_ns")};
   entry.provenance = Provenance::from_json(json.at("provenance").dump());
   entry.seconds = json.at("seconds");

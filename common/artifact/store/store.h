@@ -28,10 +28,11 @@ struct EntryName {
 struct Entry {
   std::string key;
   Provenance provenance;
-  std::filesystem::path file;   ///< the artifact
-  std::string digest;           ///< of the artifact
-  FileStamp stamp;              ///< of the artifact, when its digest was last checked
-  double seconds = 0;           ///< that making it took
+  std::filesystem::path file;  ///< the artifact
+  std::string digest;          ///< of the artifact
+  std::string content;  ///< `content_digest` of the artifact: what depends on it goes by that
+  FileStamp stamp;      ///< of the artifact, when its digest was last checked
+  double seconds = 0;   ///< that making it took
   std::int64_t peak_bytes = 0;  ///< of memory
 };
 
