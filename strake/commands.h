@@ -15,6 +15,7 @@ void add_info_command(CLI::App& app, Action& chosen);
 void add_check_command(CLI::App& app, Action& chosen);
 void add_sample_command(CLI::App& app, Action& chosen);
 void add_run_command(CLI::App& app, Action& chosen);
+void add_submit_command(CLI::App& app, Action& chosen);
 void add_status_command(CLI::App& app, Action& chosen);
 void add_gc_command(CLI::App& app, Action& chosen);
 void add_schema_command(CLI::App& app, Action& chosen);

@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
     strake::add_check_command(app, chosen);
     strake::add_sample_command(app, chosen);
     strake::add_run_command(app, chosen);
+    strake::add_submit_command(app, chosen);
     strake::add_status_command(app, chosen);
     strake::add_gc_command(app, chosen);
     strake::add_schema_command(app, chosen);

@@ -9,6 +9,7 @@
 
 #include "common/core/error.h"
 #include "strake/run/rules.h"
+#include "strake/run/slurm_options.h"
 #include "strake/run/stage_catalog.h"
 
 namespace strake {
@@ -16,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kTopKeys = {"version", "store",    "models", "stages",
-                                           "options", "variants", "outputs"};
+const std::vector<std::string> kTopKeys = {"version", "store",    "models",  "stages",
+                                           "options", "variants", "outputs", "cluster"};
 constexpr const char* kVersion = "1";
 
 /// Reads one pipeline file; members are filled in the order in which they need each other.
@@ -47,6 +48,7 @@ class Reader {
     read_variants();
     read_models();
     read_deliveries();
+    read_cluster();
     return std::move(description_);
   }
 
@@ -203,6 +205,16 @@ class Reader {
         check_delivery(description_, entry, text, file.place());
         description_.deliveries.push_back({entry.key, path.string(), file.place()});
       }
+    }
+  }
+
+  void read_cluster() {
+    if (!top_.count("cluster")) return;
+    const auto fields = top_.at("cluster").fields("settings of a cluster", {"options"});
+    if (!fields.count("options")) return;
+    for (const YamlView& item : fields.at("options").items("options of sbatch")) {
+      description_.sbatch_options.push_back(
+          checked_sbatch_options(item.text("an option of sbatch"), item.place()));
     }
   }
 

@@ -65,6 +65,7 @@ struct Description {
   std::vector<ModelEntry> models;
   std::vector<Variant> variants;  ///< at least one
   std::vector<Delivery> deliveries;
+  std::vector<std::string> sbatch_options;  ///< for all jobs on a cluster
 };
 
 /// Reads and checks a pipeline file, before anything is run.

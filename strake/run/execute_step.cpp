@@ -24,6 +24,7 @@
 #include "strake/run/plan.h"
 #include "strake/run/run_folder.h"
 #include "strake/run/stage_catalog.h"
+#include "strake/run/stage_command.h"
 #include "strake/run/survey.h"
 
 namespace strake {
@@ -40,9 +41,6 @@ class DamagedInput : public Error {
  public:
   explicit DamagedInput(const std::string& message) : Error(ExitCode::bad_input, message) {}
 };
-
-/// The folder that the program itself lies in: the programs of the stages lie beside it.
-fs::path program_folder() { return fs::read_symlink("/proc/self/exe").parent_path(); }
 
 class StepRun {
  public:
@@ -126,29 +124,6 @@ class StepRun {
     }
   }
 
-  [[nodiscard]] std::vector<std::string> command(const Provenance& provenance,
-                                                 const fs::path& output) const {
-    std::vector<std::string> words = {(program_folder() / ("strake-" + order_.program)).string()};
-    const Stage stage = make_stage(order_.stage);
-    for (const OrderedInput& input : order_.inputs) {
-      const auto port = std::find_if(stage.inputs.begin(), stage.inputs.end(),
-                                     [&](const Port& p) { return p.name == input.port; });
-      if (!port->required) words.push_back("--" + input.port);
-      words.push_back(input.file.string());
-    }
-    for (const OrderedInput& part : order_.parts) words.push_back(part.file.string());
-    words.insert(words.end(), {"-o", output.string(), "--log-json"});
-    words.insert(words.end(), {"--threads", std::to_string(order_.threads)});
-    if (!order_.parts.empty()) return words;  // a merge takes its options from the parts
-    for (const auto& option : provenance.options) {
-      const bool is_flag = std::holds_alternative<bool*>(stage.option(option.name).target);
-      if (option.is_default) continue;
-      words.push_back("--" + option.name);
-      if (!is_flag) words.push_back(option.value);
-    }
-    return words;
-  }
-
   /// Turns an event of the program into progress or a line of the log.
   void take_line(const std::string& line) {
     const Json event = Json::parse(line, nullptr, false);
@@ -210,7 +185,8 @@ class StepRun {
     Entry entry;
     entry.file = store_.folder(name) / order_.file_name;
     entry.provenance = provenance;
-    const std::vector<std::string> words = command(provenance, entry.file);
+    std::vector<std::string> words = stage_command(order_, entry.file);
+    words.push_back("--log-json");
     log(fmt::format("{}", fmt::join(words, " ")));
     ChildProcess child(words);
     const ChildOutcome ended = child.wait([&](const std::string& line) { take_line(line); }, [] {});

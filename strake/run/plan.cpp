@@ -40,6 +40,14 @@ std::string filled_in(std::string text, const std::string& model, const std::str
   return text;
 }
 
+/// Faces of a model that the program makes itself: about what it is asked for.
+double sample_faces(const Step& step) {
+  const Provenance provenance = step_provenance(step);
+  const auto faces = std::find_if(provenance.options.begin(), provenance.options.end(),
+                                  [](const auto& option) { return option.name == "faces"; });
+  return faces == provenance.options.end() ? 0 : std::stod(faces->value);
+}
+
 class Planner {
  public:
   Planner(const Description& description, const Selection& selection)
@@ -127,7 +135,9 @@ class Planner {
     faces_ = 0;
     if (model.file.empty()) {
       static const std::vector<Rule> kSample = sample_rules();
-      made[kModelArtifact].step = step_for(model_index, kSample.front(), variant, made);
+      const std::size_t sample = step_for(model_index, kSample.front(), variant, made);
+      faces_ = plan_.steps[sample].faces = sample_faces(plan_.steps[sample]);
+      made[kModelArtifact].step = sample;
     } else {
       std::error_code ignored;
       const auto bytes = fs::file_size(model.file, ignored);

@@ -1,3 +1,5 @@
+#include "strake/run/run_command.h"
+
 #include <fmt/format.h>
 #include <sys/sysinfo.h>
 
@@ -14,10 +16,10 @@
 #include "common/core/error.h"
 #include "strake/commands.h"
 #include "strake/run/ninja_engine.h"
-#include "strake/run/pipeline_options.h"
 #include "strake/run/run_display.h"
-#include "strake/run/run_folder.h"
-#include "strake/run/survey.h"
+#include "strake/run/slurm_engine.h"
+#include "strake/run/slurm_options.h"
+#include "strake/run/slurm_scripts.h"
 
 namespace strake {
 namespace {
@@ -40,41 +42,10 @@ std::int64_t machine_memory() {
 
 std::int64_t processors() { return std::max(1u, std::thread::hardware_concurrency()); }
 
-struct RunCommand {
-  PipelineOptions pipeline;
-  std::int64_t jobs = 0;
-  std::string memory;
-  bool dry_run = false;
-  bool explain = false;
-  bool keep_going = false;
-  bool verify = false;
-  bool quiet = false;
-  std::string from;
-  std::vector<std::string> forced;
+}  // namespace
 
-  void add_to(CLI::App& app);
-  int run();
-
- private:
-  void refuse_what_lies_before(const Plan& plan, const std::vector<StepState>& states) const;
-  void print_plan(const Plan& plan, const std::vector<StepState>& states) const;
-  [[nodiscard]] std::int64_t threads_for(const std::vector<StepOrder>& orders) const;
-  [[nodiscard]] RunSettings settings(const Plan& plan) const;
-  int run_stale(const Plan& plan, const std::vector<StepState>& states, const Store& store) const;
-};
-
-void RunCommand::add_to(CLI::App& app) {
+void RunCommand::add_common_options(CLI::App& app) {
   pipeline.add_to(app);
-  add_options(app, {{.name = "jobs",
-                     .target = &jobs,
-                     .unit = "",
-                     .help = "Steps to run at once; 0 for as many as there are processors.",
-                     .min = 0,
-                     .max = 4096}});
-  app.add_option("--memory", memory,
-                 "Memory that steps may use together, e.g. 16GB; others wait. Default: nine tenths "
-                 "of the machine's.")
-      ->type_name("SIZE");
   app.add_flag("-n,--dry-run", dry_run, "Say what would be run, and run nothing.");
   app.add_flag("--explain", explain, "Say of every step why it is run or not.");
   app.add_option("--from", from, "Run nothing before this stage: what it needs must be there.")
@@ -83,9 +54,42 @@ void RunCommand::add_to(CLI::App& app) {
       ->type_name("STAGE")
       ->take_all()
       ->allow_extra_args(false);
-  app.add_flag("-k,--keep-going", keep_going, "After a failure, run what does not depend on it.");
   app.add_flag("--verify", verify, "Read all that is in the store and check its bytes.");
   app.add_flag("-q,--quiet", quiet, "Say nothing but errors.");
+}
+
+void RunCommand::add_local_options(CLI::App& app) {
+  app.add_option("-j,--jobs", jobs, "Steps to run at once; 0 for as many as there are processors.")
+      ->type_name("N")
+      ->check(CLI::Range(0, 4096))
+      ->capture_default_str();
+  app.add_option("--memory", memory,
+                 "Memory that steps may use together, e.g. 16GB; others wait. Default: nine tenths "
+                 "of the machine's.")
+      ->type_name("SIZE");
+  app.add_flag("-k,--keep-going", keep_going,
+               "After a failure, run what does not depend on it. Slurm always does.");
+}
+
+void RunCommand::add_slurm_options(CLI::App& app) {
+  app.add_flag("--wait", wait, "Wait until all jobs have ended, and show how they go.");
+  app.add_option("--sbatch", sbatch, "More options for sbatch, e.g. \"--partition=long\".")
+      ->type_name("OPTIONS")
+      ->take_all()
+      ->allow_extra_args(false);
+}
+
+/// Refuses what the engine would silently not do.
+void RunCommand::check_engine_options() const {
+  if (engine == kSlurm) {
+    if (jobs != 0 || !memory.empty()) {
+      throw UsageError(
+          "--jobs and --memory are for the local engine; on a cluster Slurm decides what fits (see "
+          "'resources' in the pipeline file, and --sbatch)");
+    }
+  } else if (wait || !sbatch.empty()) {
+    throw UsageError("--wait and --sbatch are for --engine slurm");
+  }
 }
 
 void RunCommand::refuse_what_lies_before(const Plan& plan,
@@ -128,8 +132,14 @@ std::int64_t RunCommand::threads_for(const std::vector<StepOrder>& orders) const
   return std::max<std::int64_t>(1, processors() / at_once);
 }
 
-RunSettings RunCommand::settings(const Plan& plan) const {
-  RunSettings settings{plan.store, machine_memory(), keep_going};
+RunSettings RunCommand::settings(const Description& description) const {
+  RunSettings settings;
+  settings.store = description.store;
+  settings.keep_going = keep_going;
+  settings.pipeline = description.file;
+  settings.targets = pipeline.targets;
+  if (engine == kSlurm) return settings;
+  settings.memory = machine_memory();
   if (!memory.empty()) {
     const std::optional<double> bytes = parse_bytes(memory);
     if (!bytes || *bytes < 1) {
@@ -140,8 +150,8 @@ RunSettings RunCommand::settings(const Plan& plan) const {
   return settings;
 }
 
-int RunCommand::run_stale(const Plan& plan, const std::vector<StepState>& states,
-                          const Store& store) const {
+int RunCommand::run_locally(const Description& description, const Plan& plan,
+                            const std::vector<StepState>& states) const {
   const std::vector<StepOrder> orders = [&] {
     std::vector<StepOrder> stale = stale_orders(plan, states, 0);
     const std::int64_t threads = threads_for(stale);
@@ -150,11 +160,60 @@ int RunCommand::run_stale(const Plan& plan, const std::vector<StepState>& states
     }
     return stale;
   }();
-  const RunFolder folder = RunFolder::create(store, settings(plan));
+  const RunFolder folder = RunFolder::create(Store(plan.store), settings(description));
   for (const StepOrder& order : orders) folder.write_order(order);
   RunDisplay display(folder, orders, quiet);
   run_with_ninja(folder, orders, jobs > 0 ? jobs : processors(), [&] { display.update(); });
   display.finish();
+  return conclude(folder, orders);
+}
+
+int RunCommand::run_on_cluster(const Description& description, const Plan& plan,
+                               const std::vector<StepState>& states) const {
+  std::vector<std::string> options = description.sbatch_options;
+  for (const std::string& text : sbatch) {
+    options.push_back(checked_sbatch_options(text, {"--sbatch " + text, 1, 1}));
+  }
+  const std::vector<QueuedTask> queue = script_only ? std::vector<QueuedTask>() : slurm_queue();
+  const Store store(plan.store);
+  const std::vector<StepOrder> orders = stale_orders(plan, states, 1);
+  const RunFolder folder = RunFolder::create(store, settings(description));
+  for (const StepOrder& order : orders) folder.write_order(order);
+  const fs::path scripts =
+      script_folder.empty() ? folder.path() / "slurm" : fs::absolute(script_folder);
+  write_slurm_scripts(scripts, folder, orders, slurm_arrays(orders), options);
+  if (script_only) {
+    if (!quiet) fmt::print("submit with {}\n", (scripts / kSubmitScript).string());
+    return 0;
+  }
+  const std::size_t cancelled = cancel_superseded(queue, store, folder.settings());
+  if (cancelled > 0 && !quiet) {
+    fmt::print("cancelled {} waiting tasks of earlier submissions\n", cancelled);
+  }
+  const std::vector<std::string> submitted = submit_to_slurm(scripts);
+  if (!quiet) {
+    fmt::print(
+        "jobs    {0}\n"
+        "follow  squeue --jobs={1}\n"
+        "        strake status{2}\n"
+        "logs    {3}\n"
+        "stop    scancel {0}\n"
+        "resume  run the same command again, now or after failures\n",
+        fmt::join(submitted, " "), fmt::join(submitted, ","),
+        pipeline.file == PipelineOptions().file ? "" : " --file " + pipeline.file,
+        (folder.path() / "logs").string());
+    std::fflush(stdout);
+  }
+  if (!wait) return 0;
+  RunDisplay display(folder, orders, quiet);
+  wait_for_slurm(folder, orders, [&] { display.update(); });
+  display.finish();
+  if (interrupt_requested() && !quiet) fmt::print(stderr, "strake: the jobs go on\n");
+  return conclude(folder, orders);
+}
+
+/// Prints what became of the steps. \return the exit code of the first that failed
+int RunCommand::conclude(const RunFolder& folder, const std::vector<StepOrder>& orders) const {
   if (!quiet) std::fputs(run_table(folder, orders).c_str(), stdout);
   int worst = 0;
   bool damaged = false;
@@ -168,7 +227,14 @@ int RunCommand::run_stale(const Plan& plan, const std::vector<StepState>& states
   return damaged ? kDamaged : worst;
 }
 
+/// What became of the stale steps, for the last line.
+const char* RunCommand::done_to_steps() const {
+  if (script_only) return "written to scripts";
+  return engine == kSlurm && !wait ? "submitted" : "run";
+}
+
 int RunCommand::run() {
+  check_engine_options();
   const Description description = pipeline.read();
   const Plan plan = make_plan(description, pipeline.selection(description));
   const Store store(plan.store);
@@ -203,7 +269,8 @@ int RunCommand::run() {
     int exit_code = 0;
     if (stale > 0) {
       store.prepare();
-      exit_code = run_stale(plan, states, store);
+      exit_code = engine == kSlurm ? run_on_cluster(description, plan, states)
+                                   : run_locally(description, plan, states);
     }
     for (const PendingDelivery& pending : pending_deliveries(plan, states, digests)) {
       deliver(states[pending.step].entry->file, pending.file);
@@ -212,18 +279,21 @@ int RunCommand::run() {
       forced_rules.clear();
       continue;
     }
-    if (!quiet) fmt::print("{} steps run, {} in the store\n", stale, cached);
+    if (!quiet) fmt::print("{} steps {}, {} in the store\n", stale, done_to_steps(), cached);
     return exit_code == kDamaged ? static_cast<int>(ExitCode::bad_input) : exit_code;
   }
 }
-
-}  // namespace
 
 void add_run_command(CLI::App& app, Action& chosen) {
   CLI::App* command =
       app.add_subcommand("run", "Build what a pipeline file describes, and only what is stale.");
   const auto run = std::make_shared<RunCommand>();
-  run->add_to(*command);
+  command->add_option("--engine", run->engine, "What runs the steps: this machine, or a cluster.")
+      ->check(CLI::IsMember({kLocal, kSlurm}))
+      ->capture_default_str();
+  run->add_common_options(*command);
+  run->add_local_options(*command);
+  run->add_slurm_options(*command);
   command->callback([run, &chosen] { chosen = [run] { return run->run(); }; });
 }
 

@@ -92,7 +92,9 @@ RunFolder RunFolder::create(const Store& store, const RunSettings& settings) {
   }
   write_text(path / "run.json", Json{{"store", settings.store.string()},
                                      {"memory", settings.memory},
-                                     {"keep_going", settings.keep_going}}
+                                     {"keep_going", settings.keep_going},
+                                     {"pipeline", settings.pipeline.string()},
+                                     {"targets", settings.targets}}
                                     .dump(1));
   return RunFolder(path);
 }
@@ -100,7 +102,8 @@ RunFolder RunFolder::create(const Store& store, const RunSettings& settings) {
 RunSettings RunFolder::settings() const {
   return read_json(path_ / "run.json", [](const Json& json) {
     return RunSettings{json.at("store").get<std::string>(), json.at("memory"),
-                       json.at("keep_going")};
+                       json.at("keep_going"), json.at("pipeline").get<std::string>(),
+                       json.at("targets").get<std::vector<std::string>>()};
   });
 }
 
@@ -109,12 +112,20 @@ void RunFolder::write_order(const StepOrder& order) const {
   for (const Setting& setting : order.settings) {
     settings.push_back({setting.option, setting.value});
   }
-  const Json json = {{"title", order.title},           {"model", order.model},
-                     {"stage", order.stage},           {"program", order.program},
-                     {"settings", settings},           {"inputs", to_json(order.inputs)},
-                     {"parts", to_json(order.parts)},  {"file_name", order.file_name},
-                     {"deliver_to", order.deliver_to}, {"memory", order.memory},
-                     {"seconds", order.seconds},       {"threads", order.threads},
+  const Json json = {{"title", order.title},
+                     {"model", order.model},
+                     {"model_index", order.model_index},
+                     {"rule", order.rule},
+                     {"stage", order.stage},
+                     {"program", order.program},
+                     {"settings", settings},
+                     {"inputs", to_json(order.inputs)},
+                     {"parts", to_json(order.parts)},
+                     {"file_name", order.file_name},
+                     {"deliver_to", order.deliver_to},
+                     {"memory", order.memory},
+                     {"seconds", order.seconds},
+                     {"threads", order.threads},
                      {"forced", order.forced}};
   write_text(path_ / "steps" / (order.id + ".json"), json.dump(1));
 }
@@ -125,6 +136,8 @@ StepOrder RunFolder::order(const std::string& id) const {
     order.id = id;
     order.title = json.at("title");
     order.model = json.at("model");
+    order.model_index = json.at("model_index");
+    order.rule = json.at("rule");
     order.stage = json.at("stage");
     order.program = json.at("program");
     for (const Json& setting : json.at("settings")) {
@@ -221,6 +234,8 @@ std::vector<StepOrder> stale_orders(const Plan& plan, const std::vector<StepStat
     order.id = step.id;
     order.title = step.title;
     order.model = step.model;
+    order.model_index = step.model_index;
+    order.rule = step.rule;
     order.stage = step.program;
     order.program = step.parts.empty() ? step.program : step.program + "-merge";
     order.settings = step.settings;

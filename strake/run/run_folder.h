@@ -29,6 +29,8 @@ struct StepOrder {
   std::string id;
   std::string title;
   std::string model;
+  std::size_t model_index = 0;  ///< its place in the pipeline file
+  std::string rule;
   std::string stage;    ///< whose result it is; part of the key
   std::string program;  ///< that makes it
   std::vector<Setting> settings;
@@ -66,6 +68,8 @@ struct RunSettings {
   std::filesystem::path store;
   std::int64_t memory = 0;  ///< bytes for all steps at once; 0: no limit (a cluster sees to it)
   bool keep_going = false;
+  std::filesystem::path pipeline;    ///< the file
+  std::vector<std::string> targets;  ///< that were asked for; empty: everything
 };
 
 class RunFolder {

@@ -125,6 +125,14 @@ Json outputs_schema() {
           {"additionalProperties", {{"anyOf", {file, {{"type", "array"}, {"items", file}}}}}}};
 }
 
+Json cluster_schema() {
+  const Json option = {{"type", "string"}, {"pattern", "^-"}};
+  const Json options = {
+      {"type", "array"}, {"description", "For sbatch, e.g. --partition=long."}, {"items", option}};
+  return {
+      {"type", "object"}, {"properties", {{"options", options}}}, {"additionalProperties", false}};
+}
+
 }  // namespace
 
 std::string pipeline_schema() {
@@ -141,7 +149,8 @@ std::string pipeline_schema() {
                          {"stages", stages_schema()},
                          {"options", options_by_stage(false)},
                          {"variants", std::move(variants)},
-                         {"outputs", outputs_schema()}}},
+                         {"outputs", outputs_schema()},
+                         {"cluster", cluster_schema()}}},
                        {"required", {"version", "models"}},
                        {"additionalProperties", false}};
   return schema.dump(1) + "\n";

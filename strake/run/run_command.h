@@ -1,0 +1,57 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "strake/run/pipeline_options.h"
+#include "strake/run/run_folder.h"
+#include "strake/run/survey.h"
+
+namespace strake {
+
+/// Names of the engines that carry out steps.
+inline constexpr const char* kLocal = "local";
+inline constexpr const char* kSlurm = "slurm";
+
+/// Building what a pipeline describes: `strake run`, and `strake submit` as a way to call it.
+struct RunCommand {
+  PipelineOptions pipeline;
+  std::string engine = kLocal;
+  bool dry_run = false;
+  bool explain = false;
+  bool verify = false;
+  bool quiet = false;
+  std::string from;
+  std::vector<std::string> forced;
+  // Of the local engine.
+  std::int64_t jobs = 0;
+  std::string memory;
+  bool keep_going = false;
+  // Of Slurm.
+  bool wait = false;
+  std::vector<std::string> sbatch;
+  bool script_only = false;
+  std::string script_folder;
+
+  void add_common_options(CLI::App& app);
+  void add_local_options(CLI::App& app);
+  void add_slurm_options(CLI::App& app);
+  int run();
+
+ private:
+  void check_engine_options() const;
+  void refuse_what_lies_before(const Plan& plan, const std::vector<StepState>& states) const;
+  void print_plan(const Plan& plan, const std::vector<StepState>& states) const;
+  [[nodiscard]] std::int64_t threads_for(const std::vector<StepOrder>& orders) const;
+  [[nodiscard]] RunSettings settings(const Description& description) const;
+  int run_locally(const Description& description, const Plan& plan,
+                  const std::vector<StepState>& states) const;
+  int run_on_cluster(const Description& description, const Plan& plan,
+                     const std::vector<StepState>& states) const;
+  int conclude(const RunFolder& folder, const std::vector<StepOrder>& orders) const;
+  [[nodiscard]] const char* done_to_steps() const;
+};
+
+}  // namespace strake
