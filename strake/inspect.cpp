@@ -86,6 +86,9 @@ void check_artifact(ArtifactKind kind, const std::string& path) {
     case ArtifactKind::quads:
       read_quad_mesh(path);
       break;
+    case ArtifactKind::tensor_part:
+      read_tensor_part(path);
+      break;
   }
 }
 

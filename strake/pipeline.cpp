@@ -50,7 +50,7 @@ const Report& Pipeline::run(const Stage& stage) {
   Inputs inputs;
   for (const Port& port : stage.inputs) {
     const auto entry = values_.find(port.name);
-    if (entry != values_.end()) inputs.set(port.name, entry->second.value, entry->second.origin);
+    if (entry != values_.end()) inputs.add(port.name, {entry->second.value, entry->second.origin});
   }
   StageResult result = run_stage(stage, inputs, *console_);
   for (const std::string& warning : result.report.warnings()) {

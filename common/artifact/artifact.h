@@ -2,19 +2,22 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "common/artifact/provenance.h"
 #include "common/core/fields.h"
 #include "common/core/line_set.h"
+#include "common/core/mesh_blocks.h"
 #include "common/core/poly_mesh.h"
+#include "common/core/tensor_part.h"
 #include "common/core/tri_mesh.h"
 
 /// The files that stages hand to each other; FORMAT.md specifies them.
 namespace strake {
 
-enum class ArtifactKind { mesh, tensor, field, lines, quads };
+enum class ArtifactKind { mesh, tensor, field, lines, quads, tensor_part };
 
 /// "mesh", "tensor", ... as in the file.
 std::string kind_name(ArtifactKind kind);
@@ -37,6 +40,8 @@ bool write_artifact(const std::filesystem::path& path, const LineSet& lines, con
                     const Provenance& provenance);
 bool write_artifact(const std::filesystem::path& path, const QuadMesh& quads,
                     const Provenance& provenance);
+bool write_artifact(const std::filesystem::path& path, const TensorPart& part,
+                    const Provenance& provenance);
 
 /// Reads an artifact back exactly as it was written.
 /// \throw InputError naming file and dataset where the file is missing, damaged, of another kind or
@@ -46,6 +51,12 @@ TensorField read_tensor_field(const std::filesystem::path& path);
 PrincipalField read_principal_field(const std::filesystem::path& path);
 LineSet read_line_set(const std::filesystem::path& path);
 QuadMesh read_quad_mesh(const std::filesystem::path& path);
+TensorPart read_tensor_part(const std::filesystem::path& path);
+
+/// Opens a mesh artifact to be read in blocks. Shapes are checked at once, numbers and indices when
+/// they are read; whether twins and wedges agree with the faces is left to the caller.
+/// \throw InputError, now and while reading, as `read_tri_mesh`
+std::shared_ptr<const MeshBlocks> open_tri_mesh(const std::filesystem::path& path);
 
 /// What an artifact says about itself without reading its data.
 struct ArtifactInfo {

@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <array>
 #include <cstddef>
-#include <limits>
+#include <functional>
+#include <numeric>
 
 #include "common/artifact/artifact_file.h"
 
@@ -11,20 +13,46 @@ namespace {
 /// (xx, yy, zz, xy, yz, xz).
 constexpr std::array<std::size_t, 6> kStoredComponent = {0, 3, 5, 1, 4, 2};
 
+using Tensors = std::vector<std::array<double, 6>>;
+
+void write_tensors(ArtifactWriter& file, const Tensors& tensor, const std::vector<Vec3>& normal) {
+  Tensors stored(tensor.size());
+  for (std::size_t w = 0; w < stored.size(); ++w) {
+    for (std::size_t i = 0; i < 6; ++i) stored[w][i] = tensor[w][kStoredComponent[i]];
+  }
+  file.own("tensor", stored);
+  file.own("normal", normal);
+  file.show("tensor", "PointData/tensor");
+  file.show("normal", "PointData/normal");
+}
+
+/// Fills what `write_tensors` wrote into `tensor` and `normal`.
+void read_tensors(const ArtifactReader& file, Tensors& tensor, std::vector<Vec3>& normal) {
+  const auto stored = file.own<std::array<double, 6>>("tensor");
+  normal = file.own<Vec3>("normal");
+  file.require_rows(normal, stored.size(), "normal");
+  file.require_finite(stored, "tensor");
+  file.require_finite(normal, "normal");
+  tensor.resize(stored.size());
+  for (std::size_t w = 0; w < stored.size(); ++w) {
+    for (std::size_t i = 0; i < 6; ++i) tensor[w][kStoredComponent[i]] = stored[w][i];
+  }
+}
+
+/// The one number of a dataset that has one row.
+Index read_number(const ArtifactReader& file, const char* name) {
+  const auto rows = file.own<Index>(name);
+  file.require_rows(rows, 1, name);
+  return rows.front();
+}
+
 }  // namespace
 
 bool write_artifact(const std::filesystem::path& path, const TensorField& field,
                     const TriMesh& mesh, const Provenance& provenance) {
   ArtifactWriter file(path, ArtifactKind::tensor, field.mesh_id, provenance);
   file.wedge_grid(mesh);
-  std::vector<std::array<double, 6>> stored(field.tensor.size());
-  for (std::size_t w = 0; w < stored.size(); ++w) {
-    for (std::size_t i = 0; i < 6; ++i) stored[w][i] = field.tensor[w][kStoredComponent[i]];
-  }
-  file.own("tensor", stored);
-  file.own("normal", field.normal);
-  file.show("tensor", "PointData/tensor");
-  file.show("normal", "PointData/normal");
+  write_tensors(file, field.tensor, field.normal);
   return file.commit();
 }
 
@@ -32,16 +60,46 @@ TensorField read_tensor_field(const std::filesystem::path& path) {
   const ArtifactReader file(path, ArtifactKind::tensor);
   TensorField field;
   field.mesh_id = file.mesh_id();
-  const auto stored = file.own<std::array<double, 6>>("tensor");
-  field.normal = file.own<Vec3>("normal");
-  file.require_rows(field.normal, stored.size(), "normal");
-  file.require_finite(stored, "tensor");
-  file.require_finite(field.normal, "normal");
-  field.tensor.resize(stored.size());
-  for (std::size_t w = 0; w < stored.size(); ++w) {
-    for (std::size_t i = 0; i < 6; ++i) field.tensor[w][kStoredComponent[i]] = stored[w][i];
-  }
+  read_tensors(file, field.tensor, field.normal);
   return field;
+}
+
+bool write_artifact(const std::filesystem::path& path, const TensorPart& part,
+                    const Provenance& provenance) {
+  ArtifactWriter file(path, ArtifactKind::tensor_part, part.mesh_id, provenance);
+  std::vector<Index> points(part.wedge.size());
+  std::iota(points.begin(), points.end(), 0);
+  std::vector<Index> offsets(part.wedge.size() + 1);
+  std::iota(offsets.begin(), offsets.end(), 0);
+  file.grid(part.position, points, offsets,
+            std::vector<std::uint8_t>(part.wedge.size(), kVtkVertex));
+  file.adopt("Points", "position");
+  file.own("part", std::vector<Index>{part.part});
+  file.own("parts", std::vector<Index>{part.parts});
+  file.own("wedge", part.wedge);
+  file.show("wedge", "PointData/wedge");
+  write_tensors(file, part.tensor, part.normal);
+  return file.commit();
+}
+
+TensorPart read_tensor_part(const std::filesystem::path& path) {
+  const ArtifactReader file(path, ArtifactKind::tensor_part);
+  TensorPart part;
+  part.mesh_id = file.mesh_id();
+  part.parts = read_number(file, "parts");
+  file.require(part.parts >= 1, "parts", "is not a number of parts");
+  part.part = read_number(file, "part");
+  file.require(part.part >= 1 && part.part <= part.parts, "part", "is not one of the parts");
+  part.wedge = file.own<Index>("wedge");
+  file.require(part.wedge.empty() || part.wedge.front() >= 0, "wedge", "has indices out of range");
+  file.require(std::is_sorted(part.wedge.begin(), part.wedge.end(), std::less_equal<>()), "wedge",
+               "is not ascending");
+  part.position = file.own<Vec3>("position");
+  file.require_rows(part.position, part.wedge.size(), "position");
+  file.require_finite(part.position, "position");
+  read_tensors(file, part.tensor, part.normal);
+  file.require_rows(part.tensor, part.wedge.size(), "tensor");
+  return part;
 }
 
 bool write_artifact(const std::filesystem::path& path, const PrincipalField& field,

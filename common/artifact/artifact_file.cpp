@@ -10,7 +10,8 @@ namespace strake {
 namespace {
 
 constexpr const char* kContent = "content";
-constexpr std::array<const char*, 5> kKindNames = {"mesh", "tensor", "field", "lines", "quads"};
+constexpr std::array<const char*, 6> kKindNames = {"mesh",  "tensor", "field",
+                                                   "lines", "quads",  "tensor_part"};
 
 /// Kind and version of an open file. \throw InputError where either is unknown
 ArtifactKind read_kind(const hdf5::Reader& file) {

@@ -84,15 +84,28 @@ class ArtifactReader {
                                      hdf5::Layout layout = hdf5::Layout::table) const {
     return file_.dataset<Row>(group_ + "/" + name, layout);
   }
+  /// Rows of a dataset, for reading it in blocks.
+  template <class Row>
+  [[nodiscard]] std::int64_t row_count(const std::string& name,
+                                       hdf5::Layout layout = hdf5::Layout::table) const {
+    return file_.row_count<Row>(group_ + "/" + name, layout);
+  }
+  template <class Row>
+  [[nodiscard]] std::vector<Row> own_rows(const std::string& name, Index first, Index count,
+                                          hdf5::Layout layout = hdf5::Layout::table) const {
+    return file_.rows<Row>(group_ + "/" + name, first, count, layout);
+  }
   /// Refuses the dataset where `sound` is false.
   void require(bool sound, std::string_view name, std::string_view what) const {
     if (!sound) file_.refuse(group_ + "/" + std::string(name), std::string(what));
   }
   template <class Row>
   void require_rows(const std::vector<Row>& rows, std::size_t count, std::string_view name) const {
-    require(
-        rows.size() == count, name,
-        "has " + std::to_string(rows.size()) + " rows where " + std::to_string(count) + " belong");
+    require_row_count(rows.size(), count, name);
+  }
+  void require_row_count(std::size_t found, std::size_t wanted, std::string_view name) const {
+    require(found == wanted, name,
+            "has " + std::to_string(found) + " rows where " + std::to_string(wanted) + " belong");
   }
   /// Every number finite, of doubles, vectors or arrays of doubles.
   template <class Row>
@@ -111,9 +124,9 @@ class ArtifactReader {
   void require_offsets(const std::vector<Index>& offsets, std::size_t end, Index shortest,
                        std::string_view name) const;
   /// Codes of an enumeration or a flag below `end`.
-  template <class Row>
-  void require_codes(const std::vector<Row>& codes, int end, std::string_view name) const {
-    for (const Row code : codes) require(static_cast<int>(code) < end, name, "has unknown codes");
+  template <class Codes>
+  void require_codes(const Codes& codes, int end, std::string_view name) const {
+    for (const auto code : codes) require(static_cast<int>(code) < end, name, "has unknown codes");
   }
 
  private:

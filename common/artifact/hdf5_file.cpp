@@ -313,10 +313,18 @@ Shape Reader::checked_shape(const std::string& name, Scalar scalar, bool is_tabl
   return shape;
 }
 
-void Reader::read(const std::string& name, void* data, Scalar scalar) const {
+void Reader::read(const std::string& name, void* data, Scalar scalar, std::int64_t first,
+                  const Shape& block) const {
+  if (block.rows == 0) return;
+  const std::array<hsize_t, 2> start = {static_cast<hsize_t>(first), 0};
+  const std::array<hsize_t, 2> size = {static_cast<hsize_t>(block.rows),
+                                       static_cast<hsize_t>(block.columns)};
   const Handle dataset = open_dataset(id_, name);
-  if (!dataset.valid() ||
-      H5Dread(dataset.id(), memory_type(scalar), H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) {
+  const Handle there(H5Dget_space(dataset.id()), H5Sclose);
+  const Handle here(H5Screate_simple(block.is_table ? 2 : 1, size.data(), nullptr), H5Sclose);
+  if (H5Sselect_hyperslab(there.id(), H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr) <
+          0 ||
+      H5Dread(dataset.id(), memory_type(scalar), here.id(), there.id(), H5P_DEFAULT, data) < 0) {
     fail(name, "cannot be read; the file is damaged, make it again");
   }
 }

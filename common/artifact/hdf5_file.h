@@ -132,20 +132,35 @@ class Reader : public File {
   /// The datasets of a group, by name.
   [[nodiscard]] std::vector<DatasetInfo> list(const std::string& group) const;
 
+  /// The number of rows. \throw InputError where type or shape are not those of `Row`
+  template <class Row>
+  [[nodiscard]] std::int64_t row_count(const std::string& name,
+                                       Layout layout = Layout::table) const {
+    constexpr std::int64_t kColumns = RowTraits<Row>::kColumns;
+    const bool is_table = kColumns > 1 && layout == Layout::table;
+    const Shape shape = checked_shape(name, RowTraits<Row>::kScalar, is_table);
+    if (is_table ? shape.columns != kColumns : shape.rows % kColumns != 0) {
+      refuse(name, "has rows of a wrong length");
+    }
+    return is_table ? shape.rows : shape.rows / kColumns;
+  }
+  /// Rows first ... first + count - 1.
+  /// \pre there are as many, and `row_count` was satisfied with type and shape
+  template <class Row>
+  [[nodiscard]] std::vector<Row> rows(const std::string& name, std::int64_t first,
+                                      std::int64_t count, Layout layout = Layout::table) const {
+    constexpr std::int64_t kColumns = RowTraits<Row>::kColumns;
+    const bool is_table = kColumns > 1 && layout == Layout::table;
+    std::vector<Row> rows(static_cast<std::size_t>(count));
+    const Shape shape = is_table ? Shape{count, kColumns, true} : Shape{count * kColumns, 1, false};
+    read(name, rows.data(), RowTraits<Row>::kScalar, is_table ? first : first * kColumns, shape);
+    return rows;
+  }
   /// The whole dataset. \throw InputError where type or shape are not those of `Row`
   template <class Row>
   [[nodiscard]] std::vector<Row> dataset(const std::string& name,
                                          Layout layout = Layout::table) const {
-    constexpr std::int64_t kColumns = RowTraits<Row>::kColumns;
-    const bool is_table = kColumns > 1 && layout == Layout::table;
-    const Shape shape = checked_shape(name, RowTraits<Row>::kScalar, is_table);
-    const std::int64_t count = is_table ? shape.rows : shape.rows / kColumns;
-    if (is_table ? shape.columns != kColumns : shape.rows % kColumns != 0) {
-      refuse(name, "has rows of a wrong length");
-    }
-    std::vector<Row> rows(static_cast<std::size_t>(count));
-    read(name, rows.data(), RowTraits<Row>::kScalar);
-    return rows;
+    return rows<Row>(name, 0, row_count<Row>(name, layout), layout);
   }
 
   /// Throws an InputError that names this file and the dataset.
@@ -153,7 +168,9 @@ class Reader : public File {
 
  private:
   [[nodiscard]] Shape checked_shape(const std::string& name, Scalar scalar, bool is_table) const;
-  void read(const std::string& name, void* data, Scalar scalar) const;
+  /// Reads a block of the given shape that begins at row `first` of the dataset.
+  void read(const std::string& name, void* data, Scalar scalar, std::int64_t first,
+            const Shape& block) const;
 };
 
 }  // namespace strake::hdf5

@@ -56,7 +56,7 @@ std::string help_text(const Option& option) {
 
 /// The files a stage program works on.
 struct Paths {
-  std::map<std::string, std::string> inputs;  ///< by port
+  std::map<std::string, std::vector<std::string>> inputs;  ///< by port
   std::string output;
 };
 
@@ -65,6 +65,7 @@ void add_ports(CLI::App& app, const Stage& stage, Paths& paths) {
     const std::string name = port.required ? port.name : "--" + port.name;
     CLI::Option* option = app.add_option(name, paths.inputs[port.name], port.help);
     option->type_name("FILE")->required(port.required);
+    if (!port.many) option->expected(1);
   }
   app.add_option("-o,--output", paths.output, stage.output.help)
       ->type_name("FILE")
@@ -74,13 +75,21 @@ void add_ports(CLI::App& app, const Stage& stage, Paths& paths) {
 void check_paths(const Stage& stage, const Paths& paths) {
   if (paths.output.empty()) return;
   check_output_path(stage.output.kind, paths.output);
-  for (const auto& [port, path] : paths.inputs) {
-    std::error_code ignored;
-    if (!path.empty() && fs::equivalent(path, paths.output, ignored)) {
-      throw UsageError("output '" + paths.output + "' is the input '" + port +
-                       "'; give another name");
+  for (const auto& [port, files] : paths.inputs) {
+    for (const std::string& path : files) {
+      std::error_code ignored;
+      if (fs::equivalent(path, paths.output, ignored)) {
+        throw UsageError("output '" + paths.output + "' is the input '" + port +
+                         "'; give another name");
+      }
     }
   }
+}
+
+Input load_input(PortKind kind, const std::string& path) {
+  Input input = {std::make_shared<const Value>(load_value(kind, path)), path, content_digest(path)};
+  if (is_artifact(path)) input.provenance = read_artifact_info(path).provenance;
+  return input;
 }
 
 /// Reads the inputs and notes their digests.
@@ -88,11 +97,13 @@ Inputs load_inputs(const Stage& stage, const Paths& paths, Provenance& provenanc
                    ConsoleObserver& console) {
   Inputs inputs;
   for (const Port& port : stage.inputs) {
-    const std::string& path = paths.inputs.at(port.name);
-    if (path.empty()) continue;
-    console.report("reading " + path, 0);
-    inputs.set(port.name, std::make_shared<const Value>(load_value(port.kind, path)), path);
-    provenance.inputs.push_back({port.name, content_digest(path)});
+    for (const std::string& path : paths.inputs.at(port.name)) {
+      console.report("reading " + path, 0);
+      Input input = load_input(port.kind, path);
+      const std::string number = std::to_string(inputs.count(port.name) + 1);
+      provenance.inputs.push_back({port.many ? port.name + "-" + number : port.name, input.digest});
+      inputs.add(port.name, std::move(input));
+    }
   }
   return inputs;
 }
@@ -109,7 +120,7 @@ void run_program(const Stage& stage, const Paths& paths, const ShellOptions& she
   if (result.output) {
     console.report("writing " + paths.output, 1);
     const TriMesh* mesh = inputs.find<TriMesh>("mesh");
-    save_value(paths.output, *result.output, mesh, record.provenance);
+    save_value(paths.output, *result.output, mesh, result.provenance.value_or(record.provenance));
   } else {
     std::fputs(report_text(record.report).c_str(), stdout);
     if (!paths.output.empty()) write_text(paths.output, record_json(record));

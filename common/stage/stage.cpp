@@ -18,8 +18,10 @@ StageResult run_stage(const Stage& stage, const Inputs& inputs, Observer& observ
   }
   for (const Port& port : stage.inputs) {
     if (mesh_port == nullptr || port.kind == PortKind::mesh || !inputs.has(port.name)) continue;
-    check_belongs(inputs.get<TriMesh>(mesh_port->name), inputs.origin(mesh_port->name),
-                  inputs.value(port.name), inputs.origin(port.name));
+    for (const Input& input : inputs.all(port.name)) {
+      check_belongs(inputs.get<TriMesh>(mesh_port->name), inputs.at(mesh_port->name).origin,
+                    *input.value, input.origin);
+    }
   }
   return stage.run(inputs, observer);
 }

@@ -21,25 +21,36 @@ struct Port {
   PortKind kind = PortKind::report;
   std::string help;      ///< a few words
   bool required = true;  ///< an input that is not required is given as --name
+  bool many = false;     ///< takes one or more files; the last port that is required
+};
+
+/// A value that goes into a stage, and what is known of it.
+struct Input {
+  std::shared_ptr<const Value> value;
+  std::string origin;                         ///< file or stage it comes from, for messages
+  std::string digest = {};                    ///< content digest of the file, if there is one
+  std::optional<Provenance> provenance = {};  ///< of an artifact
 };
 
 /// The values a stage runs on, by port.
 class Inputs {
  public:
-  /// \param origin  file or stage the value comes from, for messages
-  void set(const std::string& port, std::shared_ptr<const Value> value, std::string origin) {
-    values_[port] = {std::move(value), std::move(origin)};
+  /// Gives a port a value; a port that takes many gets one more.
+  void add(const std::string& port, Input input) { values_[port].push_back(std::move(input)); }
+  /// How many values the port has.
+  [[nodiscard]] std::size_t count(const std::string& port) const {
+    return has(port) ? all(port).size() : 0;
   }
   [[nodiscard]] bool has(const std::string& port) const { return values_.count(port) != 0; }
-  [[nodiscard]] const Value& value(const std::string& port) const {
-    return *values_.at(port).value;
+  /// Everything given to the port, in order. \pre has(port)
+  [[nodiscard]] const std::vector<Input>& all(const std::string& port) const {
+    return values_.at(port);
   }
-  [[nodiscard]] const std::string& origin(const std::string& port) const {
-    return values_.at(port).origin;
-  }
+  /// The first. \pre has(port)
+  [[nodiscard]] const Input& at(const std::string& port) const { return all(port).front(); }
   template <class T>
   [[nodiscard]] const T& get(const std::string& port) const {
-    return std::get<T>(value(port));
+    return std::get<T>(*at(port).value);
   }
   /// nullptr where the port was not given.
   template <class T>
@@ -48,16 +59,15 @@ class Inputs {
   }
 
  private:
-  struct Entry {
-    std::shared_ptr<const Value> value;
-    std::string origin;
-  };
-  std::map<std::string, Entry> values_;
+  std::map<std::string, std::vector<Input>> values_;
 };
 
 struct StageResult {
   std::optional<Value> output;  ///< none where the report is the result
   Report report;
+  /// How the output was made, where that is not by this stage: a merge of parts gives what another
+  /// stage gives at once, and the file says so.
+  std::optional<Provenance> provenance = {};
 };
 
 /// One step of the pipeline as data: what programs, the front end and engines need to know of it.

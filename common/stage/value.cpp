@@ -61,6 +61,9 @@ bool fits(const TriMesh& mesh, const Value& value) {
                                  field.face_confidence.size() == mesh.faces.size();
                         },
                         [&](const LineSet& lines) { return fits(mesh, lines); },
+                        [&](const TensorPart& part) {
+                          return part.wedge.empty() || part.wedge.back() < mesh.wedge_count();
+                        },
                         [&](const QuadMesh& quads) {
                           const auto& faces = quads.provenance.face;
                           return std::all_of(faces.begin(), faces.end(),
@@ -87,6 +90,10 @@ Value load_value(PortKind kind, const fs::path& path) {
       return read_line_set(path);
     case PortKind::quads:
       return read_quad_mesh(path);
+    case PortKind::opened_mesh:
+      return open_tri_mesh(path);
+    case PortKind::tensor_part:
+      return read_tensor_part(path);
     case PortKind::report:
       break;
   }
@@ -98,6 +105,10 @@ void save_value(const fs::path& path, const Value& value, const TriMesh* mesh,
   std::visit(Overloaded{
                  [&](const Polygons& polygons) { write_mesh(path, polygons.mesh); },
                  [&](const TriMesh& own) { write_artifact(path, own, provenance); },
+                 [&](const TensorPart& part) { write_artifact(path, part, provenance); },
+                 [&](const OpenedMesh&) {
+                   throw Error(ExitCode::internal, "an opened mesh is not written");
+                 },
                  [&](const QuadMesh& quads) {
                    if (lower_extension(path) == kArtifactExtension) {
                      write_artifact(path, quads, provenance);
@@ -135,6 +146,7 @@ void check_output_path(PortKind kind, const fs::path& path) {
 const std::string& mesh_id_of(const Value& value) {
   return std::visit(
       Overloaded{[](const TriMesh& mesh) -> const std::string& { return mesh.id; },
+                 [](const OpenedMesh& mesh) -> const std::string& { return mesh->header().id; },
                  [](const auto& other) -> const std::string& { return other.mesh_id; }},
       value);
 }

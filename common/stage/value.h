@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <variant>
 
@@ -8,7 +9,9 @@
 #include "common/artifact/provenance.h"
 #include "common/core/fields.h"
 #include "common/core/line_set.h"
+#include "common/core/mesh_blocks.h"
 #include "common/core/poly_mesh.h"
+#include "common/core/tensor_part.h"
 #include "common/core/tri_mesh.h"
 
 /// What travels between stages, in memory and as files.
@@ -21,10 +24,25 @@ struct Polygons {
   ReadReport read;      ///< what was wrong with the mesh file
 };
 
-using Value = std::variant<Polygons, TriMesh, TensorField, PrincipalField, LineSet, QuadMesh>;
+/// A mesh artifact that is open and read as it is needed.
+using OpenedMesh = std::shared_ptr<const MeshBlocks>;
 
-/// Kinds of values a stage takes or gives; `report` is none but the report itself.
-enum class PortKind { polygons, mesh, tensor, field, lines, quads, report };
+using Value = std::variant<Polygons, TriMesh, TensorField, PrincipalField, LineSet, QuadMesh,
+                           OpenedMesh, TensorPart>;
+
+/// Kinds of values a stage takes or gives; `report` is none but the report itself, `opened_mesh` a
+/// mesh artifact for a stage that needs less memory than all of it.
+enum class PortKind {
+  polygons,
+  mesh,
+  tensor,
+  field,
+  lines,
+  quads,
+  opened_mesh,
+  tensor_part,
+  report
+};
 
 /// Reads a value from a file of the right kind.
 /// \throw InputError where the file is missing, damaged or of another kind
@@ -32,6 +50,7 @@ Value load_value(PortKind kind, const std::filesystem::path& path);
 
 /// Writes a value: artifacts, and quads also as .obj, .ply or .off as the extension says.
 /// \param mesh  the mesh a field or line set belongs to; unused for others
+/// \pre it is no OpenedMesh, which stages only take
 void save_value(const std::filesystem::path& path, const Value& value, const TriMesh* mesh,
                 const Provenance& provenance);
 

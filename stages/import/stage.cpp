@@ -19,7 +19,7 @@ Stage import_stage() {
         const auto& input = inputs.get<Polygons>("input");
         const std::vector<std::string> defects = input.read.warnings();
         if (options.strict && !defects.empty()) {
-          throw InputError(inputs.origin("input") + ": " + defects.front() +
+          throw InputError(inputs.at("input").origin + ": " + defects.front() +
                            " Leave --strict out to go on without.");
         }
         ImportResult result = import_mesh(input.mesh, options, observer);

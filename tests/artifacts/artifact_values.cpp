@@ -93,6 +93,20 @@ QuadMesh make_quads(const TriMesh& mesh, Numbers& numbers) {
   return quads;
 }
 
+TensorPart make_part(const TriMesh& mesh, Numbers& numbers) {
+  TensorPart part;
+  part.mesh_id = mesh.id;
+  part.part = 2;
+  part.parts = 3;
+  for (Index w = 1; w < mesh.wedge_count(); w += 1 + w % 3) {
+    part.wedge.push_back(w);
+    part.position.push_back(numbers.vector());
+    part.tensor.push_back({numbers(), numbers(), numbers(), numbers(), numbers(), numbers()});
+    part.normal.push_back(numbers.vector());
+  }
+  return part;
+}
+
 bool same(const std::vector<LinePoint>& a, const std::vector<LinePoint>& b) {
   return a.size() == b.size() &&
          std::equal(a.begin(), a.end(), b.begin(), [](const LinePoint& p, const LinePoint& q) {
@@ -118,6 +132,12 @@ bool same(const TriMesh& a, const TriMesh& b) {
 
 bool same(const TensorField& a, const TensorField& b) {
   return a.mesh_id == b.mesh_id && same(a.tensor, b.tensor) && same(a.normal, b.normal);
+}
+
+bool same(const TensorPart& a, const TensorPart& b) {
+  return a.mesh_id == b.mesh_id && a.part == b.part && a.parts == b.parts &&
+         same(a.wedge, b.wedge) && same(a.position, b.position) && same(a.tensor, b.tensor) &&
+         same(a.normal, b.normal);
 }
 
 bool same(const PrincipalField& a, const PrincipalField& b) {
@@ -168,6 +188,7 @@ Values make_values() {
   values.field.cross_extended = true;
   values.lines = make_lines(values.mesh, numbers);
   values.quads = make_quads(values.mesh, numbers);
+  values.part = make_part(values.mesh, numbers);
   return values;
 }
 
@@ -198,6 +219,9 @@ void write(const fs::path& path, ArtifactKind kind, const Values& values,
     case ArtifactKind::quads:
       write_artifact(path, values.quads, provenance);
       break;
+    case ArtifactKind::tensor_part:
+      write_artifact(path, values.part, provenance);
+      break;
   }
 }
 
@@ -213,6 +237,8 @@ bool reads_equal(const fs::path& path, ArtifactKind kind, const Values& values) 
       return same(read_line_set(path), values.lines);
     case ArtifactKind::quads:
       return same(read_quad_mesh(path), values.quads);
+    case ArtifactKind::tensor_part:
+      return same(read_tensor_part(path), values.part);
   }
   return false;
 }

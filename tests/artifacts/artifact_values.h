@@ -16,6 +16,7 @@ struct Values {
   PrincipalField field;
   LineSet lines;
   QuadMesh quads;
+  TensorPart part;
 };
 
 /// Values with numbers that do not survive a detour over text or single precision.
@@ -43,7 +44,7 @@ class FolderTest : public testing::TestWithParam<ArtifactKind> {
 
 inline const auto kAllKinds =
     testing::Values(ArtifactKind::mesh, ArtifactKind::tensor, ArtifactKind::field,
-                    ArtifactKind::lines, ArtifactKind::quads);
+                    ArtifactKind::lines, ArtifactKind::quads, ArtifactKind::tensor_part);
 inline const auto kKindNames = [](const testing::TestParamInfo<ArtifactKind>& info) {
   return kind_name(info.param);
 };

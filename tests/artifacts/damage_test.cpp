@@ -97,8 +97,9 @@ TEST_P(Damage, FlippedBitsNeverChangeWhatIsRead) {
 TEST_P(Damage, OtherKindsAreRefusedByName) {
   const Values values = make_values();
   write(file("a.hdf"), GetParam(), values, make_provenance());
-  for (const ArtifactKind other : {ArtifactKind::mesh, ArtifactKind::tensor, ArtifactKind::field,
-                                   ArtifactKind::lines, ArtifactKind::quads}) {
+  for (const ArtifactKind other :
+       {ArtifactKind::mesh, ArtifactKind::tensor, ArtifactKind::field, ArtifactKind::lines,
+        ArtifactKind::quads, ArtifactKind::tensor_part}) {
     if (other == GetParam()) continue;
     const std::string message = refusal(other, values);
     EXPECT_NE(message.find(kind_name(GetParam())), std::string::npos) << message;
@@ -152,6 +153,13 @@ TEST_F(Damage, IndicesOutOfRangeAndNumbersThatAreNoneAreRefused) {
   refuses(ArtifactKind::lines, "/lines/seed_point", 1, H5T_NATIVE_INT32, 1000000);
   refuses(ArtifactKind::quads, "/quads/corners", 3, H5T_NATIVE_INT32, 40);
   refuses(ArtifactKind::quads, "/quads/offsets", 1, H5T_NATIVE_INT32, 2);
+  refuses(ArtifactKind::tensor_part, "/tensor_part/part", 0, H5T_NATIVE_INT32, 0);
+  refuses(ArtifactKind::tensor_part, "/tensor_part/part", 0, H5T_NATIVE_INT32, 4);
+  refuses(ArtifactKind::tensor_part, "/tensor_part/parts", 0, H5T_NATIVE_INT32, 0);
+  refuses(ArtifactKind::tensor_part, "/tensor_part/wedge", 0, H5T_NATIVE_INT32, -1);
+  refuses(ArtifactKind::tensor_part, "/tensor_part/wedge", 3, H5T_NATIVE_INT32, 1);
+  refuses(ArtifactKind::tensor_part, "/tensor_part/position", 2, H5T_NATIVE_DOUBLE, nan);
+  refuses(ArtifactKind::tensor_part, "/tensor_part/normal", 2, H5T_NATIVE_DOUBLE, nan);
 }
 
 TEST_F(Damage, FilesThatAreNoArtifactsAreRefused) {

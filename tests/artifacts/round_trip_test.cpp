@@ -81,6 +81,7 @@ TEST_P(RoundTrip, ContentIsWhatItSaysHoweverItWasMade) {
   moved.field.normal.front().x() += 1;
   moved.lines.spacing_along_min.front() += 1;
   moved.quads.mesh.positions.front().x() += 1;
+  moved.part.normal.front().x() += 1;
   write(file("a.hdf"), GetParam(), make_values(), make_provenance());
   write(file("b.hdf"), GetParam(), make_values(), other);
   write(file("c.hdf"), GetParam(), moved, make_provenance());
