@@ -32,15 +32,19 @@ function(strake_program name)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
 endfunction()
 
-# strake_stage(NAME): the description and the program of stages/NAME, around the library strake_NAME
-# if there is one.
-function(strake_stage name)
-  set(folder ${CMAKE_CURRENT_SOURCE_DIR}/${name})
-  strake_library(${name}_stage SOURCES ${folder}/stage.cpp DEPENDS strake_stage)
-  if(TARGET strake_${name})
-    target_link_libraries(strake_${name}_stage PUBLIC strake_${name})
+# strake_stage(FOLDER [DEPENDS targets...]): the description strake_X_stage and the program strake-X of
+# stages/FOLDER, around the library of the stage if there is one. X is the folder with dashes: the
+# folder A/B is a program of stage A of its own, strake-A-B.
+function(strake_stage folder)
+  cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
+  string(REPLACE "/" "-" name ${folder})
+  string(REGEX REPLACE "/.*" "" stage ${folder})
+  set(sources ${CMAKE_CURRENT_SOURCE_DIR}/${folder})
+  strake_library(${name}_stage SOURCES ${sources}/stage.cpp DEPENDS strake_stage ${ARG_DEPENDS})
+  if(TARGET strake_${stage})
+    target_link_libraries(strake_${name}_stage PUBLIC strake_${stage})
   endif()
-  strake_program(strake-${name} SOURCES ${folder}/main.cpp DEPENDS strake_${name}_stage)
+  strake_program(strake-${name} SOURCES ${sources}/main.cpp DEPENDS strake_${name}_stage)
 endfunction()
 
 # strake_test(NAME SOURCES... [DEPENDS targets...]): a GoogleTest executable, one ctest entry a case.

@@ -19,23 +19,26 @@ double corner_angle(const TriMesh& mesh, Index h) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
+bool has_own_normal(const TriMesh& mesh, Index face) {
+  const auto& v = mesh.faces[face];
+  double longest = 0;
+  for (int i = 0; i < 3; ++i) {
+    longest =
+        std::max(longest, (mesh.positions[v[(i + 1) % 3]] - mesh.positions[v[i]]).squaredNorm());
+  }
+  const double length = face_cross(mesh, face).norm();
+  return length > kSliverRatio * longest && length > 0;
+}
+
 std::vector<Vec3> face_normals(const TriMesh& mesh) {
   const Index count = mesh.face_count();
   std::vector<Vec3> normals(count, Vec3::Zero());
   std::vector<char> known(count, 0);
   tbb::parallel_for(Index{0}, count, [&](Index f) {
+    if (!has_own_normal(mesh, f)) return;
     const Vec3 n = face_cross(mesh, f);
-    const auto& v = mesh.faces[f];
-    double longest = 0;
-    for (int i = 0; i < 3; ++i) {
-      longest =
-          std::max(longest, (mesh.positions[v[(i + 1) % 3]] - mesh.positions[v[i]]).squaredNorm());
-    }
-    const double length = n.norm();
-    if (length > kSliverRatio * longest && length > 0) {
-      normals[f] = n / length;
-      known[f] = 1;
-    }
+    normals[f] = n / n.norm();
+    known[f] = 1;
   });
   // Slivers: spread outwards from known faces, front by front, so that the result does not depend
   // on the order of faces within a front.

@@ -6,6 +6,9 @@
 
 namespace strake {
 
+/// Whether a face has an area to speak of, and so a normal that is not taken from its neighbours.
+bool has_own_normal(const TriMesh& mesh, Index face);
+
 /// [F] unit normals. A face without area takes the normal of its neighbours across its longest
 /// edges, so that slivers neither bend the surface nor turn over.
 std::vector<Vec3> face_normals(const TriMesh& mesh);

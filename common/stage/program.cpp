@@ -65,7 +65,7 @@ void add_ports(CLI::App& app, const Stage& stage, Paths& paths) {
     const std::string name = port.required ? port.name : "--" + port.name;
     CLI::Option* option = app.add_option(name, paths.inputs[port.name], port.help);
     option->type_name("FILE")->required(port.required);
-    if (!port.many) option->expected(1);
+    if (!port.many) option->expected(1)->allow_extra_args(false);
   }
   app.add_option("-o,--output", paths.output, stage.output.help)
       ->type_name("FILE")

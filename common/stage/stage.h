@@ -52,10 +52,10 @@ class Inputs {
   [[nodiscard]] const T& get(const std::string& port) const {
     return std::get<T>(*at(port).value);
   }
-  /// nullptr where the port was not given.
+  /// nullptr where the port was not given, or something else.
   template <class T>
   [[nodiscard]] const T* find(const std::string& port) const {
-    return has(port) ? &get<T>(port) : nullptr;
+    return has(port) ? std::get_if<T>(at(port).value.get()) : nullptr;
   }
 
  private:

@@ -1,4 +1,5 @@
 #include "stages/tensor/tensor.h"
+#include "stages/tensor/tensor_part.h"
 
 namespace strake {
 
@@ -11,6 +12,24 @@ OptionList TensorOptions::declare() {
        .min = 0.0001,
        .max = 0.5},
   };
+}
+
+OptionList TensorPartOptions::declare() {
+  constexpr double kMostParts = 4096;
+  OptionList options = tensor.declare();
+  options.push_back({.name = "parts",
+                     .target = &parts,
+                     .unit = "",
+                     .help = "Parts that the mesh is divided into, one process each.",
+                     .min = 1,
+                     .max = kMostParts});
+  options.push_back({.name = "part",
+                     .target = &part,
+                     .unit = "",
+                     .help = "Number of the part to do.",
+                     .min = 1,
+                     .max = kMostParts});
+  return options;
 }
 
 }  // namespace strake

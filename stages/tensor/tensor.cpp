@@ -1,93 +1,20 @@
 #include "stages/tensor/tensor.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
+#include <utility>
 
-#include <algorithm>
-#include <atomic>
-
-#include "common/geometry/frames.h"
-#include "common/geometry/mesh_measures.h"
-#include "stages/tensor/ball.h"
+#include "stages/tensor/wedge_tensors.h"
 
 namespace strake {
-namespace {
-
-/// Balls grow with the local edge length up to this multiple of the wanted radius: below one ring
-/// of edges the estimate only sees single dihedral angles.
-constexpr double kLargestGrowth = 3;
-constexpr Index kBlock = 256;
-
-/// Signed dihedral angle at every half-edge, positive where convex; 0 on barriers.
-std::vector<float> dihedral_angles(const TriMesh& mesh, const std::vector<Vec3>& normals) {
-  std::vector<float> beta(mesh.halfedge_count(), 0);
-  tbb::parallel_for(Index{0}, mesh.halfedge_count(), [&](Index h) {
-    if (mesh.is_barrier(h)) return;
-    const Vec3& left = normals[TriMesh::face_of(h)];
-    const Vec3& right = normals[TriMesh::face_of(mesh.twin[h])];
-    const Vec3 edge = (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).normalized();
-    beta[h] = static_cast<float>(std::atan2(left.cross(right).dot(edge), left.dot(right)));
-  });
-  return beta;
-}
-
-/// Mean length of the edges around each wedge.
-std::vector<double> wedge_edge_lengths(const TriMesh& mesh) {
-  std::vector<double> sum(mesh.wedge_count(), 0);
-  std::vector<Index> count(mesh.wedge_count(), 0);
-  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
-    const double length = (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).norm();
-    for (const Index corner : {h, TriMesh::next(h)}) {
-      sum[mesh.wedge_of(corner)] += length;
-      ++count[mesh.wedge_of(corner)];
-    }
-  }
-  for (Index w = 0; w < mesh.wedge_count(); ++w) sum[w] /= std::max(count[w], Index{1});
-  return sum;
-}
-
-}  // namespace
 
 TensorResult estimate_tensors(const TriMesh& mesh, const TensorOptions& options,
                               Observer& observer) {
   const double radius = options.radius.resolve(mesh.diagonal);
-  const std::vector<Vec3> normals = face_normals(mesh);
-  const std::vector<float> beta = dihedral_angles(mesh, normals);
-  const std::vector<double> edge_length = wedge_edge_lengths(mesh);
-
-  std::vector<Index> wedge_corner(mesh.wedge_count(), kNone);
-  for (Index h = mesh.halfedge_count() - 1; h >= 0; --h) wedge_corner[mesh.wedge_of(h)] = h;
-
+  WedgeTensors tensors = estimate_wedge_tensors(mesh, mesh.wedge_count(), radius, observer);
   TensorResult result;
-  result.field.mesh_id = mesh.id;
-  result.field.normal = wedge_normals(mesh, normals);
-  result.field.tensor.resize(mesh.wedge_count());
-
-  tbb::enumerable_thread_specific<BallWalker> walkers(
-      [&] { return BallWalker(mesh, normals, beta); });
-  std::atomic<Index> grown{0};
-  const Index blocks = (mesh.wedge_count() + kBlock - 1) / kBlock;
-  const Index reports = std::min<Index>(blocks, 64);
-  for (Index part = 0; part < reports; ++part) {
-    const Index first = static_cast<Index>(std::int64_t{blocks} * part / reports) * kBlock;
-    const Index last =
-        std::min<Index>(static_cast<Index>(std::int64_t{blocks} * (part + 1) / reports) * kBlock,
-                        mesh.wedge_count());
-    tbb::parallel_for(tbb::blocked_range<Index>(first, last, 32), [&](const auto& range) {
-      BallWalker& walker = walkers.local();
-      for (Index w = range.begin(); w != range.end(); ++w) {
-        const double r = std::clamp(1.5 * edge_length[w], radius, kLargestGrowth * radius);
-        if (r > radius) grown.fetch_add(1, std::memory_order_relaxed);
-        result.field.tensor[w] = walker.tensor(wedge_corner[w], result.field.normal[w], r);
-      }
-    });
-    observer.report("estimating curvature tensors", double(part + 1) / reports);
-  }
-
+  result.field = {mesh.id, std::move(tensors.tensor), std::move(tensors.normal)};
   result.report.set("tensor.radius", radius);
-  result.report.set("tensor.wedges", static_cast<std::int64_t>(mesh.wedge_count()));
-  result.report.set("tensor.balls_grown_to_edge_length", static_cast<std::int64_t>(grown.load()));
+  result.report.set("tensor.wedges", mesh.wedge_count());
+  result.report.set("tensor.balls_grown_to_edge_length", tensors.grown);
   return result;
 }
 

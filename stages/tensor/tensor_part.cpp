@@ -1,0 +1,43 @@
+#include "stages/tensor/tensor_part.h"
+
+#include <string>
+#include <utility>
+
+#include "common/core/error.h"
+#include "stages/tensor/part_mesh.h"
+#include "stages/tensor/wedge_tensors.h"
+
+namespace strake {
+
+TensorPartResult estimate_tensor_part(const MeshBlocks& blocks, const TensorPartOptions& options,
+                                      Observer& observer) {
+  if (options.part > options.parts) {
+    throw UsageError("--part " + std::to_string(options.part) + ": there are only " +
+                     std::to_string(options.parts) + " parts (--parts)");
+  }
+  const double radius = options.tensor.radius.resolve(blocks.header().diagonal);
+  const auto parts = static_cast<Index>(options.parts);
+  const auto number = static_cast<Index>(options.part);
+  PartMesh part = read_part(blocks, parts, number - 1, kLargestGrowth * radius, observer);
+  const auto count = static_cast<Index>(part.wedge.size());
+  WedgeTensors tensors = estimate_wedge_tensors(part.mesh, count, radius, observer);
+
+  TensorPartResult result;
+  result.part.mesh_id = blocks.header().id;
+  result.part.part = number;
+  result.part.parts = parts;
+  result.part.wedge = std::move(part.wedge);
+  for (Index w = 0; w < count; ++w) {
+    result.part.position.push_back(part.mesh.positions[part.mesh.wedge_vertex[w]]);
+  }
+  result.part.tensor = std::move(tensors.tensor);
+  result.part.normal = std::move(tensors.normal);
+  result.report.set("tensor.radius", radius);
+  result.report.set("tensor.wedges", count);
+  result.report.set("tensor.faces_kept", part.mesh.face_count());
+  result.report.set("tensor.faces", blocks.header().faces);
+  result.report.set("tensor.balls_grown_to_edge_length", tensors.grown);
+  return result;
+}
+
+}  // namespace strake
