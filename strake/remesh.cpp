@@ -12,6 +12,7 @@
 #include "common/artifact/text_file.h"
 #include "common/core/error.h"
 #include "stages/evaluate/stage.h"
+#include "stages/fit/stage.h"
 #include "stages/import/stage.h"
 #include "stages/mesh/stage.h"
 #include "stages/smooth/stage.h"
@@ -43,6 +44,7 @@ struct RemeshCommand {
   Stage smooth = smooth_stage();
   Stage trace = trace_stage();
   Stage mesh = mesh_stage();
+  Stage fit = fit_stage();
   Stage evaluate = evaluate_stage();
 
   void add_to(CLI::App& app);
@@ -67,7 +69,7 @@ void RemeshCommand::add_to(CLI::App& app) {
   app.add_option("--keep", keep, "Keep the artifact and report of every stage in this folder.")
       ->type_name("FOLDER");
   app.add_flag("--no-evaluate", no_evaluate, "Do not measure the result.");
-  for (const Stage* stage : {&import, &tensor, &smooth, &trace, &mesh, &evaluate}) {
+  for (const Stage* stage : {&import, &tensor, &smooth, &trace, &mesh, &fit, &evaluate}) {
     add_options(*app.add_option_group("Stage " + stage->name, stage->summary), stage->options);
   }
   shell.add_to(app);
@@ -91,7 +93,7 @@ void RemeshCommand::check() const {
 Provenance RemeshCommand::provenance(const std::string& input_digest) const {
   Provenance whole;
   whole.stage = "remesh";
-  for (const Stage* stage : {&import, &tensor, &smooth, &trace, &mesh}) {
+  for (const Stage* stage : {&import, &tensor, &smooth, &trace, &mesh, &fit}) {
     const Provenance part = provenance_of(*stage);
     whole.stage_version += part.stage_version;
     whole.options.insert(whole.options.end(), part.options.begin(), part.options.end());
@@ -161,9 +163,11 @@ void RemeshCommand::run() {
   }
   pipeline.keep(trace);
   pipeline.keep(mesh);
-  const QuadMesh& quads = pipeline.get<QuadMesh>("quads");
+  pipeline.run(fit);
+  pipeline.keep(fit);
+  const QuadMesh& quads = pipeline.get<QuadMesh>("fitted");
   if (!no_evaluate) {
-    pipeline.provide_as("candidate", Polygons{quads.mesh, quads.mesh_id, {}}, "quads");
+    pipeline.provide_as("candidate", Polygons{quads.mesh, quads.mesh_id, {}}, "fitted");
     pipeline.run(evaluate);
     pipeline.keep(evaluate);
   }

@@ -24,7 +24,7 @@ constexpr std::int64_t kMostParts = 4096;
 /// The artifact that a port takes unless the file says otherwise.
 std::string usual_source(const std::string& port) {
   if (port == "input") return kModelArtifact;
-  return port == "candidate" ? "quads" : port;
+  return port == "candidate" ? "fitted" : port;
 }
 
 Rule usual_rule(const std::string& name, const std::string& program, const Place& place) {

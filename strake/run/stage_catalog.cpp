@@ -6,6 +6,7 @@
 
 #include "stages/evaluate/stage.h"
 #include "stages/export/stage.h"
+#include "stages/fit/stage.h"
 #include "stages/import/stage.h"
 #include "stages/mesh/stage.h"
 #include "stages/sample/stage.h"
@@ -20,9 +21,9 @@ using Maker = Stage (*)();
 
 const std::vector<std::pair<std::string, Maker>>& catalog() {
   static const std::vector<std::pair<std::string, Maker>> kCatalog = {
-      {"sample", sample_stage},     {"import", import_stage}, {"tensor", tensor_stage},
-      {"smooth", smooth_stage},     {"trace", trace_stage},   {"mesh", mesh_stage},
-      {"evaluate", evaluate_stage}, {"export", export_stage},
+      {"sample", sample_stage}, {"import", import_stage},     {"tensor", tensor_stage},
+      {"smooth", smooth_stage}, {"trace", trace_stage},       {"mesh", mesh_stage},
+      {"fit", fit_stage},       {"evaluate", evaluate_stage}, {"export", export_stage},
   };
   return kCatalog;
 }

@@ -8,7 +8,7 @@
 namespace strake {
 
 /// The programs a pipeline may use, in the order of the standard chain: "sample", "import",
-/// "tensor", "smooth", "trace", "mesh", "evaluate", "export".
+/// "tensor", "smooth", "trace", "mesh", "fit", "evaluate", "export".
 const std::vector<std::string>& stage_names();
 
 /// A new description of a stage, with options of its own. \pre the name is one of `stage_names`

@@ -6,8 +6,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kArtifacts = {"mesh.hdf", "tensor.hdf", "field.hdf", "lines.hdf",
-                                             "quads.hdf"};
+const std::vector<std::string> kArtifacts = {"mesh.hdf",  "tensor.hdf", "field.hdf",
+                                             "lines.hdf", "quads.hdf",  "fitted.hdf"};
 
 class Chain : public ProgramTest {
  protected:
@@ -24,11 +24,11 @@ TEST_F(Chain, GivesTheSameBytesForAnyThreadCount) {
 
 TEST_F(Chain, FrontEndKeepsWhatThePrograms) {
   run_chain("part.ply", "");
-  must("strake-evaluate mesh.hdf quads.hdf --field field.hdf -o evaluate.json -q");
+  must("strake-evaluate mesh.hdf fitted.hdf --field field.hdf -o evaluate.json -q");
   must("strake remesh part.ply -o part.obj --keep kept -q");
   for (const std::string& name : kArtifacts) EXPECT_EQ(bytes(name), bytes("kept/" + name)) << name;
   EXPECT_EQ(bytes("evaluate.json"), bytes("kept/evaluate.json"));
-  must("strake-mesh mesh.hdf lines.hdf -o again.obj -q");
+  must("strake-fit mesh.hdf quads.hdf -o again.obj -q");
   EXPECT_EQ(bytes("part.obj"), bytes("again.obj"));
 }
 
@@ -37,11 +37,13 @@ TEST_F(Chain, AnotherSeedNeedsOnlyTraceAndMeshAgain) {
   const std::string field = bytes("field.hdf");
   must("strake-trace mesh.hdf field.hdf -o lines7.hdf --seed 7 -q");
   must("strake-mesh mesh.hdf lines7.hdf -o quads7.hdf -q");
+  must("strake-fit mesh.hdf quads7.hdf -o fitted7.hdf -q");
   EXPECT_EQ(bytes("field.hdf"), field);
   must("strake remesh part.ply -o whole.obj --seed 7 --keep kept -q");
   EXPECT_EQ(bytes("field.hdf"), bytes("kept/field.hdf"));
   EXPECT_EQ(bytes("lines7.hdf"), bytes("kept/lines.hdf"));
   EXPECT_EQ(bytes("quads7.hdf"), bytes("kept/quads.hdf"));
+  EXPECT_EQ(bytes("fitted7.hdf"), bytes("kept/fitted.hdf"));
 }
 
 TEST_F(Chain, RunningAgainLeavesTheFilesAlone) {
