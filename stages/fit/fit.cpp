@@ -44,9 +44,11 @@ constexpr double kSolverTolerance = 1e-6;
 constexpr int kMostRetreats = 10;  ///< times that vertices are put back in a round
 /// On a line where barycentric coordinates are below this.
 constexpr double kOnEdge = 1e-9;
+constexpr double kBoundMargin = 1e-9;  ///< of bounds on distances
 
 /// A sample of a triangle of the result, and what it says about its three corners.
 struct Sample {
+  Vec3 place = Vec3::Zero();
   std::array<double, 3> reach = {0, 0, 0};  ///< its way towards the surface per move of a corner
   double distance = 0;                      ///< signed, along the normal of the surface
   double weight = 0;                        ///< area it stands for; 0 where it tells nothing
@@ -64,6 +66,7 @@ class Fit {
     for (Vec3& p : positions_) p -= mesh.origin;
     was_concave_ = concave_faces();
     set_moves();
+    start_samples();
     measure();
   }
 
@@ -173,7 +176,33 @@ class Fit {
     }
   }
 
-  [[nodiscard]] Sample sample(Index triangle, const Quadrature& rule) const {
+  [[nodiscard]] Vec3 place(Index triangle, const Quadrature& rule) const {
+    const auto& corners = triangles_[triangle];
+    return rule.at[0] * positions_[corners[0]] + rule.at[1] * positions_[corners[1]] +
+           rule.at[2] * positions_[corners[2]];
+  }
+
+  /// Gives each sample a bound on its distance: that from the foot of its triangle's first corner.
+  void start_samples() {
+    samples_.resize(triangles_.size() * kSamples.size());
+    measured_.assign(positions_.size(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      const Index corner = triangles_[t].front();
+      const auto& face = mesh_.faces[quads_.provenance.face[corner]];
+      Vec3 foot = Vec3::Zero();
+      for (int i = 0; i < 3; ++i) {
+        foot += quads_.provenance.barycentric[corner][i] * mesh_.positions[face[i]];
+      }
+      for (std::size_t s = 0; s < kSamples.size(); ++s) {
+        Sample& sample = samples_[t * kSamples.size() + s];
+        sample.place = place(static_cast<Index>(t), kSamples[s]);
+        sample.distance = (sample.place - foot).norm();
+      }
+    }
+  }
+
+  /// Measures a sample again. \param before  what it was, whose distance bounds the new one
+  [[nodiscard]] Sample sample(Index triangle, const Quadrature& rule, const Sample& before) const {
     const auto& corners = triangles_[triangle];
     const Vec3& a = positions_[corners[0]];
     const Vec3& b = positions_[corners[1]];
@@ -181,15 +210,16 @@ class Fit {
     const Vec3 cross = (b - a).cross(c - a);
     const double area2 = cross.norm();
     Sample result;
-    if (!(area2 > 0)) return result;
-    const Vec3 q = rule.at[0] * a + rule.at[1] * b + rule.at[2] * c;
-    const ClosestPoint nearest = surface_.closest(q);
+    const Vec3 q = place(triangle, rule);
+    result.place = q;
+    const double bound = std::abs(before.distance) + (q - before.place).norm();
+    const ClosestPoint nearest = surface_.closest_within(q, (1 + kBoundMargin) * bound + margin());
     const Vec3& normal = face_normals_[nearest.triangle];
     const bool same_sheet = normal.dot(cross) > kLeastAgreement * area2;
     // Where sheets differ the distance still counts, so that it cannot be made to grow unseen.
     result.weight = rule.weight * area2 / 2;
     result.distance = nearest.distance;
-    if (!same_sheet) return result;
+    if (!same_sheet || !(area2 > 0)) return result;
     const Vec3 way = surface_.point(nearest) - q;
     const Vec3 direction = nearest.distance > 1e-12 * mesh_.diagonal
                                ? Vec3(std::copysign(1.0, way.dot(normal)) * way.normalized())
@@ -201,13 +231,21 @@ class Fit {
     return result;
   }
 
+  /// Keeps rounding from making a bound too tight.
+  [[nodiscard]] double margin() const { return kBoundMargin * mesh_.diagonal; }
+
+  /// Measures the samples of all triangles of which a corner has moved.
   void measure() {
-    samples_.resize(triangles_.size() * kSamples.size());
     tbb::parallel_for(std::size_t{0}, triangles_.size(), [&](std::size_t t) {
+      const bool same = std::all_of(triangles_[t].begin(), triangles_[t].end(),
+                                    [&](Index v) { return positions_[v] == measured_[v]; });
+      if (same) return;
       for (std::size_t s = 0; s < kSamples.size(); ++s) {
-        samples_[t * kSamples.size() + s] = sample(static_cast<Index>(t), kSamples[s]);
+        Sample& own = samples_[t * kSamples.size() + s];
+        own = sample(static_cast<Index>(t), kSamples[s], own);
       }
     });
+    measured_ = positions_;
   }
 
   /// [V] squared distance around each vertex.
@@ -273,6 +311,7 @@ class Fit {
   std::vector<char> was_concave_;                ///< [F]
   std::vector<Vec3> normal_;                     ///< [V] unit; zero where a vertex stays
   std::vector<double> longest_move_;             ///< [V]
+  std::vector<Vec3> measured_;                   ///< [V] positions when last measured
   std::vector<Sample> samples_;                  ///< [triangles * kSamples]
 };
 

@@ -137,6 +137,10 @@ ClosestPoint SurfaceDistance::closest(const Vec3& p) const {
   return query(p, std::numeric_limits<double>::infinity(), nullptr);
 }
 
+ClosestPoint SurfaceDistance::closest_within(const Vec3& p, double reach) const {
+  return query(p, reach, nullptr);
+}
+
 ClosestPoint SurfaceDistance::closest_if(const Vec3& p, double reach,
                                          const std::function<bool(Index)>& accept) const {
   return query(p, reach, &accept);

@@ -38,6 +38,8 @@ class SurfaceDistance {
 
   /// The nearest point of the surface.
   [[nodiscard]] ClosestPoint closest(const Vec3& p) const;
+  /// The nearest point that is at most `reach` away; faster the smaller that is.
+  [[nodiscard]] ClosestPoint closest_within(const Vec3& p, double reach) const;
 
   /// The nearest point of those triangles that `accept` admits, at most `reach` away.
   [[nodiscard]] ClosestPoint closest_if(const Vec3& p, double reach,
