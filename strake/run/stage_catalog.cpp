@@ -11,6 +11,7 @@
 #include "stages/mesh/stage.h"
 #include "stages/sample/stage.h"
 #include "stages/smooth/stage.h"
+#include "stages/tensor/part/stage.h"
 #include "stages/tensor/stage.h"
 #include "stages/trace/stage.h"
 
@@ -18,6 +19,9 @@ namespace strake {
 namespace {
 
 using Maker = Stage (*)();
+
+/// Not for rules: a rule of the stage tensor asks for its parts by `parts`.
+constexpr const char* kTensorPart = "tensor-part";
 
 const std::vector<std::pair<std::string, Maker>>& catalog() {
   static const std::vector<std::pair<std::string, Maker>> kCatalog = {
@@ -40,6 +44,7 @@ const std::vector<std::string>& stage_names() {
 }
 
 Stage make_stage(const std::string& name) {
+  if (name == kTensorPart) return tensor_part_stage();
   const auto found = std::find_if(catalog().begin(), catalog().end(),
                                   [&](const auto& entry) { return entry.first == name; });
   return found->second();

@@ -11,7 +11,8 @@ namespace strake {
 /// "tensor", "smooth", "trace", "mesh", "fit", "evaluate", "export".
 const std::vector<std::string>& stage_names();
 
-/// A new description of a stage, with options of its own. \pre the name is one of `stage_names`
+/// A new description of a stage, with options of its own.
+/// \pre the name is one of `stage_names`, or "tensor-part"
 Stage make_stage(const std::string& name);
 
 }  // namespace strake
