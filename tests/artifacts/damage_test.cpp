@@ -162,6 +162,29 @@ TEST_F(Damage, IndicesOutOfRangeAndNumbersThatAreNoneAreRefused) {
   refuses(ArtifactKind::tensor_part, "/tensor_part/normal", 2, H5T_NATIVE_DOUBLE, nan);
 }
 
+TEST_F(Damage, BlocksOfADamagedMeshAreRefused) {
+  const Values values = make_values();
+  const Index faces = values.mesh.face_count();
+  const auto refuses = [&](const std::string& name, hsize_t at, hid_t type, auto value,
+                           const auto& read) {
+    write(file("a.hdf"), ArtifactKind::mesh, values, make_provenance());
+    read(*open_tri_mesh(file("a.hdf")));
+    set_scalar("/mesh/" + name, at, type, value);
+    EXPECT_THROW(read(*open_tri_mesh(file("a.hdf"))), InputError) << name;
+  };
+  refuses("positions", 7, H5T_NATIVE_DOUBLE, std::nan(""),
+          [](const MeshBlocks& mesh) { mesh.positions(5, 10); });
+  refuses("wedge_vertex", 7, H5T_NATIVE_INT32, values.mesh.vertex_count(),
+          [](const MeshBlocks& mesh) { mesh.wedge_vertex(5, 10); });
+  refuses("faces", 3 * 7, H5T_NATIVE_INT32, -1, [](const MeshBlocks& mesh) { mesh.faces(5, 10); });
+  refuses("face_wedges", 7, H5T_NATIVE_INT32, values.mesh.wedge_count(),
+          [](const MeshBlocks& mesh) { mesh.face_wedges(5, 10); });
+  refuses("twin", 3 * 7, H5T_NATIVE_INT32, 3 * faces,
+          [](const MeshBlocks& mesh) { mesh.twin(5, 10); });
+  refuses("is_feature", 3 * 7, H5T_NATIVE_INT32, 2,
+          [](const MeshBlocks& mesh) { mesh.is_feature(5, 10); });
+}
+
 TEST_F(Damage, FilesThatAreNoArtifactsAreRefused) {
   const Values values = make_values();
   put_bytes(file("a.hdf"), "ply\nformat ascii 1.0\n");

@@ -133,6 +133,29 @@ TEST_F(Artifacts, LargerThanOneChunkSurvive) {
   EXPECT_TRUE(reads_equal(file("a.hdf"), ArtifactKind::quads, values));
 }
 
+TEST_F(Artifacts, BlocksOfAMeshAreItsRows) {
+  const TriMesh mesh = make_values().mesh;
+  write_artifact(file("a.hdf"), mesh, make_provenance());
+  const auto blocks = open_tri_mesh(file("a.hdf"));
+  EXPECT_EQ(blocks->header().id, mesh.id);
+  EXPECT_EQ(blocks->header().diagonal, mesh.diagonal);
+  EXPECT_EQ(blocks->header().vertices, mesh.vertex_count());
+  EXPECT_EQ(blocks->header().faces, mesh.face_count());
+  EXPECT_EQ(blocks->header().wedges, mesh.wedge_count());
+  constexpr Index kFirst = 11;
+  for (Index i = 0; i < 100; ++i) {
+    const Index f = kFirst + i;
+    EXPECT_EQ(blocks->positions(kFirst, 100)[i], mesh.positions[f]);
+    EXPECT_EQ(blocks->wedge_vertex(kFirst, 100)[i], mesh.wedge_vertex[f]);
+    EXPECT_EQ(blocks->faces(kFirst, 100)[i], mesh.faces[f]);
+    EXPECT_EQ(blocks->face_wedges(kFirst, 100)[i], mesh.face_wedges[f]);
+    for (int corner = 0; corner < 3; ++corner) {
+      EXPECT_EQ(blocks->twin(kFirst, 100)[i][corner], mesh.twin[3 * f + corner]);
+      EXPECT_EQ(blocks->is_feature(kFirst, 100)[i][corner], mesh.is_feature[3 * f + corner]);
+    }
+  }
+}
+
 TEST_F(Artifacts, AreRecognisedByContent) {
   write(file("a.obj"), ArtifactKind::mesh, make_values(), make_provenance());
   put_bytes(file("b.hdf"), "v 0 0 0\n");

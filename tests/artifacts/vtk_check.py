@@ -87,6 +87,12 @@ def main():
         check(result, "quads", quads,
               {"source_face": 1, "source_barycentric": 3, "source_lines": 2}, [])
 
+        subprocess.run([programs / "strake-tensor-part", folder / "mesh.hdf", "-o",
+                        folder / "tensor_part.hdf", "--parts", "2", "-q"], check=True)
+        wedges = count(programs, folder / "tensor_part.hdf", "/tensor_part/wedge")
+        check(read(folder / "tensor_part.hdf"), "tensor_part", wedges,
+              {"wedge": 1, "tensor": 6, "normal": 3}, [])
+
         # The same surface in every artifact: equal boxes, up to the distance of the result.
         box = mesh.GetBounds()
         diagonal = sum((box[2 * i + 1] - box[2 * i]) ** 2 for i in range(3)) ** 0.5
