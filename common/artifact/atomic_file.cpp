@@ -64,7 +64,7 @@ bool same_bytes(const fs::path& a, const fs::path& b) {
 }
 
 /// Flushes a file or folder to the disk. File systems that cannot flush folders say EINVAL.
-void flush(const fs::path& path, int flags) {
+void flush_to_disk(const fs::path& path, int flags) {
   const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC);
   if (descriptor < 0) fail("open", path, errno);
   int error = 0;
@@ -102,17 +102,17 @@ AtomicFile::~AtomicFile() {
   if (pending_) fs::remove(temporary_, ignored);
 }
 
-bool AtomicFile::commit() {
+bool AtomicFile::commit(Flush flush) {
   if (same_bytes(temporary_, target_)) {
     std::error_code ignored;
     fs::remove(temporary_, ignored);
     pending_ = false;
     return false;
   }
-  flush(temporary_, O_RDWR);
+  if (flush == Flush::yes) flush_to_disk(temporary_, O_RDWR);
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("replace", target_, errno);
   pending_ = false;
-  flush(folder_of(target_), O_RDONLY | O_DIRECTORY);
+  if (flush == Flush::yes) flush_to_disk(folder_of(target_), O_RDONLY | O_DIRECTORY);
   return true;
 }
 

@@ -4,6 +4,9 @@
 
 namespace strake {
 
+/// Whether a file must survive a power cut, or may be empty then, which is much faster.
+enum class Flush { yes, no };
+
 /// A file that appears under its name complete or not at all.
 ///
 /// The caller writes to `temporary()`, closes it after checking every write, and calls `commit()`.
@@ -26,7 +29,7 @@ class AtomicFile {
   /// time stamp alone where it holds the same bytes already.
   /// \return whether the target was replaced
   /// \throw InputError naming path and reason; the temporary file goes with this object
-  bool commit();
+  bool commit(Flush flush = Flush::yes);
 
  private:
   std::filesystem::path target_;

@@ -3,9 +3,12 @@
 #include <filesystem>
 #include <string>
 
+#include "common/artifact/atomic_file.h"
+
 namespace strake {
 
 /// Writes text to a file, whole or not at all. \throw InputError naming the file
-void write_text(const std::filesystem::path& path, const std::string& text);
+void write_text(const std::filesystem::path& path, const std::string& text,
+                Flush flush = Flush::yes);
 
 }  // namespace strake

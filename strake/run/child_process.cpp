@@ -21,7 +21,6 @@ namespace strake {
 namespace {
 
 constexpr int kPollMilliseconds = 100;
-constexpr int kCannotStart = 127;
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -41,6 +40,18 @@ double now() {
 }
 
 }  // namespace
+
+std::string ChildOutcome::text() const {
+  constexpr int kSignalBase = 128;
+  constexpr int kMostSignals = 64;
+  if (exit_code == kCannotStart) return "cannot be started";
+  if (exit_code <= kSignalBase || exit_code > kSignalBase + kMostSignals) {
+    return fmt::format("ended with exit code {}", exit_code);
+  }
+  const int signal = exit_code - kSignalBase;
+  return fmt::format("was killed by signal {} ({}){}", signal, ::strsignal(signal),
+                     signal == SIGKILL ? "; is the memory too small?" : "");
+}
 
 ChildProcess::ChildProcess(const std::vector<std::string>& arguments,
                            const std::filesystem::path& folder)

@@ -10,11 +10,17 @@
 
 namespace strake {
 
+/// Exit code of a program that could not be started, as shells have it.
+inline constexpr int kCannotStart = 127;
+
 /// How a program ended.
 struct ChildOutcome {
   int exit_code = 0;  ///< 128 + signal where a signal ended it
   double seconds = 0;
   std::int64_t peak_bytes = 0;  ///< of memory
+
+  /// "ended with exit code 3", "was killed by signal 9 (Killed)", "cannot be started".
+  [[nodiscard]] std::string text() const;
 };
 
 /// A program run by this one. It ends with this process, even where this process is killed.

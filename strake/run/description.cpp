@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <optional>
 #include <set>
+#include <string_view>
 
 #include "common/core/error.h"
 #include "strake/run/rules.h"
@@ -20,6 +21,32 @@ namespace fs = std::filesystem;
 const std::vector<std::string> kTopKeys = {"version", "store",    "models",  "stages",
                                            "options", "variants", "outputs", "cluster"};
 constexpr const char* kVersion = "1";
+
+constexpr const char* kPatternMarks = "*?[";
+
+/// Regular files that a pattern matches, in alphabetical order.
+std::vector<std::string> matching_files(const fs::path& folder, const std::string& pattern) {
+  std::string whole;  // in which marks in the folder's name are no marks
+  if (fs::path(pattern).is_relative()) {
+    for (const char c : folder.string() + "/") {
+      if (c == '\\' || std::string_view(kPatternMarks).find(c) != std::string_view::npos) {
+        whole += '\\';
+      }
+      whole += c;
+    }
+  }
+  whole += pattern;
+  glob_t matches = {};
+  std::vector<std::string> files;
+  if (::glob(whole.c_str(), 0, nullptr, &matches) == 0) {
+    for (std::size_t i = 0; i < matches.gl_pathc; ++i) {
+      const fs::path file = fs::path(matches.gl_pathv[i]).lexically_normal();
+      if (fs::is_regular_file(file)) files.push_back(file.string());
+    }
+  }
+  ::globfree(&matches);
+  return files;
+}
 
 /// Reads one pipeline file; members are filled in the order in which they need each other.
 class Reader {
@@ -166,20 +193,14 @@ class Reader {
   /// Adds the file, or each file that a pattern with * or ? matches, named by its stem.
   void add_files(const std::string& name, const std::string& text, const Place& place) {
     const fs::path file = (folder_ / text).lexically_normal();
-    if (text.find_first_of("*?[") == std::string::npos) {
-      if (!fs::is_regular_file(file)) {
-        place.fail(fmt::format("there is no file '{}'", file.string()));
-      }
+    const bool is_file = fs::is_regular_file(file);
+    if (is_file || text.find_first_of(kPatternMarks) == std::string::npos) {
+      if (!is_file) place.fail(fmt::format("there is no file '{}'", file.string()));
       add_model(name.empty() ? file.stem().string() : name, place, file);
       return;
     }
-    glob_t matches = {};
-    const int failed = ::glob(file.c_str(), 0, nullptr, &matches);
-    const std::vector<std::string> paths(matches.gl_pathv, matches.gl_pathv + matches.gl_pathc);
-    ::globfree(&matches);
-    if (failed != 0 || paths.empty()) {
-      place.fail(fmt::format("no file matches '{}'", file.string()));
-    }
+    const std::vector<std::string> paths = matching_files(folder_, text);
+    if (paths.empty()) place.fail(fmt::format("no file matches '{}'", file.string()));
     if (!name.empty()) place.fail("patterns have no single name; list them under 'models: [...]'");
     for (const std::string& path : paths) add_model(fs::path(path).stem().string(), place, path);
   }

@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 #include <signal.h>
 #include <sys/prctl.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -69,6 +72,10 @@ class StepRun {
       outcome.kind = StepOutcome::Kind::failed;
       outcome.message = error.what();
       outcome.exit_code = static_cast<int>(error.code());
+    } catch (const std::exception& error) {
+      outcome.kind = StepOutcome::Kind::failed;
+      outcome.message = std::string("internal error, please report it: ") + error.what();
+      outcome.exit_code = static_cast<int>(ExitCode::internal);
     }
     if (!outcome.message.empty()) log(outcome.message);
     folder_.write_outcome(order_.id, outcome);
@@ -95,13 +102,31 @@ class StepRun {
         input.content = made->content;
         input.entry = made->entry;
       }
-      const bool exists = fs::exists(input.file);
-      const std::string digest = exists ? digest_file(input.file) : "";
-      if (input.digest.empty()) input.digest = input.content = digest;  // a model: as it is now
-      if (exists && digest == input.digest) continue;
-      if (input.entry) store_.withdraw(*input.entry);
-      throw DamagedInput(fmt::format("'{}' is {}; it will be made again", input.file.string(),
-                                     exists ? "damaged" : "gone"));
+      stamps_[input.file] = stamp_of(input.file);
+      if (input.digest.empty() && fs::exists(input.file)) {  // a model: as it is now
+        input.digest = input.content = digest_file(input.file);
+      } else {
+        require_digest(input);
+      }
+    }
+  }
+
+  /// Refuses an input that has other bytes than it should.
+  void require_digest(const OrderedInput& input) const {
+    const bool exists = fs::exists(input.file);
+    if (exists && digest_file(input.file) == input.digest) return;
+    if (input.entry) store_.withdraw_if_damaged(*input.entry);
+    const char* what = !exists ? "gone" : input.entry ? "damaged" : "changed";
+    throw DamagedInput(fmt::format("'{}' is {}; {}", input.file.string(), what,
+                                   input.entry ? "it will be made again" : "the run starts over"));
+  }
+
+  /// Refuses what was made from inputs that have changed since they were checked.
+  void require_same_inputs() const {
+    for (const auto* inputs : {&order_.inputs, &order_.parts}) {
+      for (const OrderedInput& input : *inputs) {
+        if (stamp_of(input.file) != stamps_.at(input.file)) require_digest(input);
+      }
     }
   }
 
@@ -192,14 +217,16 @@ class StepRun {
     const ChildOutcome ended = child.wait([&](const std::string& line) { take_line(line); }, [] {});
     log(fmt::format("exit code {} after {:.3f} s, at most {} bytes of memory", ended.exit_code,
                     ended.seconds, ended.peak_bytes));
+    if (ended.exit_code != 0) clean(name);
+    require_same_inputs();
     StepOutcome outcome;
     outcome.entry = name;
     outcome.seconds = ended.seconds;
     outcome.peak_bytes = ended.peak_bytes;
     outcome.exit_code = ended.exit_code;
     if (ended.exit_code != 0) {
-      outcome.message =
-          last_line_.empty() ? fmt::format("ended with exit code {}", ended.exit_code) : last_line_;
+      const bool spoke = !last_line_.empty() && ended.exit_code < kCannotStart;
+      outcome.message = spoke ? last_line_ : fmt::format("'{}' {}", words.front(), ended.text());
       return outcome;
     }
     if (is_artifact(entry.file) && read_artifact_info(entry.file).provenance != provenance) {
@@ -213,7 +240,7 @@ class StepRun {
     entry.seconds = ended.seconds;
     entry.peak_bytes = ended.peak_bytes;
     if (before && before->digest != entry.digest) {
-      log("warning: running again gave other bytes than before; please report this");
+      outcome.message = "warning: running again gave other bytes than before; please report this";
     }
     store_.add(name, entry);
     outcome.kind = StepOutcome::Kind::ran;
@@ -228,14 +255,16 @@ class StepRun {
   RunSettings settings_;
   Store store_;
   std::ofstream log_;
+  std::map<fs::path, std::optional<FileStamp>> stamps_;  ///< of the inputs, when they were checked
   std::string phase_;
   std::string last_line_;  ///< of plain text: the error, where the program fails
 };
 
 }  // namespace
 
-int execute_step(const fs::path& run_folder, const std::string& id) {
+int execute_step(const fs::path& run_folder, const std::string& id, std::int64_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // an engine that is killed takes its steps with it
+  if (parent != 0 && ::getppid() != parent) throw Interrupted();  // it died before the line above
   return StepRun(run_folder, id).run();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -10,7 +11,9 @@ namespace strake {
 /// written to the run folder; other steps go by that.
 ///
 /// Safe to do twice, at once, and on several machines; safe to kill at any moment.
+/// \param parent  number of the process that this one is to end with; 0: whoever started it
 /// \return the exit code of the program, 0 on success
-int execute_step(const std::filesystem::path& run_folder, const std::string& id);
+int execute_step(const std::filesystem::path& run_folder, const std::string& id,
+                 std::int64_t parent);
 
 }  // namespace strake

@@ -52,15 +52,23 @@ double amount(const std::string& text, const std::optional<double>& value, const
   throw UsageError(fmt::format("{} '{}' is none; write e.g. {}", option, text, example));
 }
 
-/// Folders of what the pipeline makes as it stands now.
+/// Folders of what the pipeline makes as it stands now. Where that is not known yet, since
+/// something before it has to be run first, folders of all that it may turn out to be.
 std::set<fs::path> GcCommand::reachable(const Description& description, const Store& store) const {
   const Plan plan = make_plan(description, pipeline.selection(description));
-  KnownDigests digests(store.side_folder("digests"));
+  KnownDigests digests(store);
   const std::vector<StepState> states = survey(plan, store, digests, {}, Store::Check::stamp);
   std::set<fs::path> folders;
   for (std::size_t s = 0; s < plan.steps.size(); ++s) {
-    if (!states[s].key) continue;
-    folders.insert(EntryName{plan.steps[s].model, plan.steps[s].program, *states[s].key}.folder());
+    const Step& step = plan.steps[s];
+    if (states[s].key) {
+      folders.insert(EntryName{step.model, step.program, *states[s].key}.folder());
+      continue;
+    }
+    const std::string prefix = EntryName{step.model, step.program, ""}.folder().string();
+    for (const Store::Listed& listed : store.list(step.model)) {
+      if (listed.folder.string().rfind(prefix, 0) == 0) folders.insert(listed.folder);
+    }
   }
   return folders;
 }
@@ -85,7 +93,7 @@ void remove_old_runs(const Store& store) {
     const bool is_old = fs::last_write_time(run.path() / "outcomes", ignored) < limit;
     if (is_old) fs::remove_all(run.path(), ignored);
   }
-  fs::remove_all(store.side_folder("trash"), ignored);
+  store.empty_trash();
 }
 
 int GcCommand::run() const {
@@ -98,7 +106,8 @@ int GcCommand::run() const {
   double room = max_size.empty() ? std::numeric_limits<double>::infinity()
                                  : amount(max_size, parse_bytes(max_size), "--max-size", "10GB");
   const Description description = pipeline.read();
-  const Store store(description.store);
+  const Store store(description.store, dry_run ? Store::Access::look_only : Store::Access::full);
+  store.check_format();
   const std::set<fs::path> needed =
       unreachable ? reachable(description, store) : std::set<fs::path>();
 

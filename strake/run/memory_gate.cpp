@@ -17,7 +17,8 @@ namespace strake {
 namespace {
 
 constexpr std::int64_t kUnit = 16 << 20;  ///< bytes of memory per locked byte of the file
-constexpr off_t kGate = 0;                ///< the byte that whoever is next in line holds
+constexpr std::int64_t kMostUnits = 1 << 20;
+constexpr off_t kGate = 0;  ///< the byte that whoever is next in line holds
 constexpr std::chrono::milliseconds kPause{50};
 
 /// Takes or releases the lock of one byte. \return whether that worked
@@ -34,13 +35,18 @@ std::int64_t units(std::int64_t bytes) { return (bytes + kUnit - 1) / kUnit; }
 
 }  // namespace
 
-MemoryShare::MemoryShare(const std::filesystem::path& file, std::int64_t total, std::int64_t share,
-                         const std::function<void()>& idle)
+MemoryShare::MemoryShare(const std::filesystem::path& file)
     : descriptor_(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
   if (descriptor_ < 0) {
     throw InputError(fmt::format("cannot use '{}': {}", file.string(), std::strerror(errno)));
   }
-  const std::int64_t available = std::max<std::int64_t>(units(total), 1);
+}
+
+// The constructor above has made the object, so what `idle` throws closes the file and its locks.
+MemoryShare::MemoryShare(const std::filesystem::path& file, std::int64_t total, std::int64_t share,
+                         const std::function<void()>& idle)
+    : MemoryShare(file) {
+  const std::int64_t available = std::clamp<std::int64_t>(units(total), 1, kMostUnits);
   std::int64_t missing = std::clamp<std::int64_t>(units(share), 1, available);
   const auto pause = [&] {
     idle();

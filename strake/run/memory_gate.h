@@ -26,6 +26,8 @@ class MemoryShare {
   ~MemoryShare();
 
  private:
+  explicit MemoryShare(const std::filesystem::path& file);
+
   int descriptor_ = -1;
 };
 

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "common/artifact/digest.h"
 #include "common/core/error.h"
 #include "strake/run/rules.h"
 #include "strake/run/stage_catalog.h"
@@ -15,6 +16,9 @@ namespace strake {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t kLongestId = 200;  ///< a file name, with what comes before and after it
+constexpr std::size_t kKeptDigits = 16;
 
 /// File name of a stage's artifact.
 std::string artifact_name(const Stage& stage, const std::string& extension = "") {
@@ -149,7 +153,7 @@ class Planner {
       made[rule->output] = {"", step, {}};
       for (const Delivery& delivery : description_.deliveries) {
         if (delivery.artifact != rule->output) continue;
-        deliver(step, filled_in(delivery.file, model.name, variant.name), variant);
+        deliver(step, filled_in(delivery.file, model.name, variant.name), variant, delivery.place);
       }
     }
   }
@@ -210,10 +214,19 @@ class Planner {
     }
   }
 
-  void deliver(std::size_t step, const std::string& file, const Variant& variant) {
+  void deliver(std::size_t step, const std::string& file, const Variant& variant,
+               const Place& place) {
     const std::string wanted = fs::path(file).extension().string();
     if (wanted != fs::path(plan_.steps[step].file_name).extension()) {
       step = exported(step, wanted, variant);
+    }
+    for (const ModelEntry& model : description_.models) {
+      if (model.file == file) place.fail(fmt::format("'{}' is the model '{}'", file, model.name));
+    }
+    const auto [writer, is_new] = writers_.emplace(file, step);
+    if (!is_new && writer->second != step) {
+      place.fail(fmt::format("'{}' would be written twice, for '{}' too", file,
+                             plan_.steps[writer->second].model));
     }
     std::vector<std::string>& files = plan_.steps[step].deliver_to;
     if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
@@ -247,6 +260,10 @@ class Planner {
         step.id += "." + variant;
         step.title += " (" + variant + ")";
       }
+      if (step.id.size() > kLongestId) {
+        step.id = step.id.substr(0, kLongestId - kKeptDigits) +
+                  digest_text(step.id).substr(0, kKeptDigits);
+      }
       for (int copy = 2; !used.insert(step.id).second; ++copy) {
         step.id += fmt::format(".{}", copy);
       }
@@ -256,8 +273,9 @@ class Planner {
   const Description& description_;
   const Selection& selection_;
   Plan plan_;
-  std::map<std::string, std::size_t> known_;  ///< steps by what makes them equal
-  double faces_ = 0;                          ///< of the present model
+  std::map<std::string, std::size_t> known_;    ///< steps by what makes them equal
+  std::map<std::string, std::size_t> writers_;  ///< steps by the outputs they give
+  double faces_ = 0;                            ///< of the present model
 };
 
 }  // namespace

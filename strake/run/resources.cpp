@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -15,6 +15,7 @@ namespace {
 constexpr double kKilo = 1e3;
 constexpr double kMega = 1e6;
 constexpr double kGiga = 1e9;
+constexpr double kLargest = 1e18;  ///< amount that is taken seriously, and fits into 64 bits
 
 /// A number followed by one of the units, or by nothing.
 std::optional<double> parse_with_unit(std::string_view text,
@@ -25,9 +26,9 @@ std::optional<double> parse_with_unit(std::string_view text,
     while (used < text.size() && text[used] == ' ') ++used;
     const std::string_view unit = text.substr(used);
     const auto factor = units.find(unit);
-    if (!(number >= 0) || !std::isfinite(number)) return std::nullopt;
-    if (unit.empty()) return number;
-    return factor == units.end() ? std::nullopt : std::optional(number * factor->second);
+    if (!unit.empty() && factor == units.end()) return std::nullopt;
+    const double amount = unit.empty() ? number : number * factor->second;
+    return amount >= 0 && amount <= kLargest ? std::optional(amount) : std::nullopt;
   } catch (const std::logic_error&) {
     return std::nullopt;
   }
@@ -36,7 +37,7 @@ std::optional<double> parse_with_unit(std::string_view text,
 }  // namespace
 
 std::int64_t Resources::memory(double faces) const {
-  return static_cast<std::int64_t>(bytes + bytes_per_face * faces);
+  return static_cast<std::int64_t>(std::min(bytes + bytes_per_face * faces, kLargest));
 }
 
 double Resources::time(double faces) const { return seconds + seconds_per_face * faces; }

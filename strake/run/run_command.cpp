@@ -100,16 +100,16 @@ void RunCommand::refuse_what_lies_before(const Plan& plan,
     const std::vector<std::size_t> needs = needs_of(plan.steps[s]);
     const bool follows = std::any_of(needs.begin(), needs.end(),
                                      [&](std::size_t need) { return allowed.count(need) != 0; });
-    if (plan.steps[s].rule == from || follows) allowed.insert(s);
+    if (plan.steps[s].rule != from && !follows) continue;
+    allowed.insert(s);
+    allowed.insert(plan.steps[s].parts.begin(), plan.steps[s].parts.end());
   }
   for (std::size_t s = 0; s < plan.steps.size(); ++s) {
     if (allowed.count(s) != 0 || states[s].status != StepState::Status::stale) continue;
-    const auto& follower = *std::find_if(
-        plan.steps.begin(), plan.steps.end(),
-        [&](const Step& step) { return step.rule == from && step.model == plan.steps[s].model; });
-    throw PreconditionError(fmt::format(
-        "--from {}: '{}' is not in the store, and '{}' may need it ({}); run without --from first",
-        from, plan.steps[s].title, follower.title, states[s].reason));
+    throw PreconditionError(
+        fmt::format("--from {}: '{}' lies before it and is not in the store ({}); run without "
+                    "--from first",
+                    from, plan.steps[s].title, states[s].reason));
   }
 }
 
@@ -163,9 +163,10 @@ int RunCommand::run_locally(const Description& description, const Plan& plan,
   const RunFolder folder = RunFolder::create(Store(plan.store), settings(description));
   for (const StepOrder& order : orders) folder.write_order(order);
   RunDisplay display(folder, orders, quiet);
-  run_with_ninja(folder, orders, jobs > 0 ? jobs : processors(), [&] { display.update(); });
+  const std::string complaint =
+      run_with_ninja(folder, orders, jobs > 0 ? jobs : processors(), [&] { display.update(); });
   display.finish();
-  return conclude(folder, orders);
+  return conclude(folder, orders, complaint);
 }
 
 int RunCommand::run_on_cluster(const Description& description, const Plan& plan,
@@ -209,22 +210,29 @@ int RunCommand::run_on_cluster(const Description& description, const Plan& plan,
   wait_for_slurm(folder, orders, [&] { display.update(); });
   display.finish();
   if (interrupt_requested() && !quiet) fmt::print(stderr, "strake: the jobs go on\n");
-  return conclude(folder, orders);
+  return conclude(folder, orders, "see the logs in " + (folder.path() / "logs").string());
 }
 
 /// Prints what became of the steps. \return the exit code of the first that failed
-int RunCommand::conclude(const RunFolder& folder, const std::vector<StepOrder>& orders) const {
+/// \param complaint  what there is to say where steps were not run though none has failed
+int RunCommand::conclude(const RunFolder& folder, const std::vector<StepOrder>& orders,
+                         const std::string& complaint) const {
   if (!quiet) std::fputs(run_table(folder, orders).c_str(), stdout);
-  int worst = 0;
+  int failure = 0;
   bool damaged = false;
+  bool complete = true;
   for (const StepOrder& order : orders) {
     const std::optional<StepOutcome> outcome = folder.outcome(order.id);
     if (outcome && outcome->kind == StepOutcome::Kind::damaged) damaged = true;
-    if (outcome && worst == 0) worst = outcome->exit_code;
-    if (!outcome && worst == 0) worst = static_cast<int>(ExitCode::internal);
+    if (outcome && failure == 0) failure = outcome->exit_code;
+    if (!outcome) complete = false;
   }
   if (interrupt_requested()) throw Interrupted();
-  return damaged ? kDamaged : worst;
+  if (damaged) return kDamaged;
+  if (failure == 0 && !complete) {
+    throw Error(ExitCode::internal, "the run was cut short; run again to go on\n" + complaint);
+  }
+  return failure;
 }
 
 /// What became of the stale steps, for the last line.
@@ -237,18 +245,19 @@ int RunCommand::run() {
   check_engine_options();
   const Description description = pipeline.read();
   const Plan plan = make_plan(description, pipeline.selection(description));
-  const Store store(plan.store);
+  const Store store(plan.store, dry_run ? Store::Access::look_only : Store::Access::full);
+  store.check_format();
   std::set<std::string> forced_rules(forced.begin(), forced.end());
   check_rule_name(from, description, "--from");
   for (const std::string& name : forced) check_rule_name(name, description, "--force");
 
   for (int round = 1;; ++round) {
-    KnownDigests digests(store.side_folder("digests"));
+    KnownDigests digests(store);
     const std::vector<StepState> states = survey(
         plan, store, digests, forced_rules, verify ? Store::Check::content : Store::Check::stamp);
     refuse_what_lies_before(plan, states);
     for (const StepState& state : states) {
-      if (!quiet && state.reason.rfind("damaged", 0) == 0) {
+      if (!quiet && state.damaged) {
         fmt::print(stderr, "strake: warning: {}; it is made again\n", state.reason);
       }
     }
@@ -279,8 +288,13 @@ int RunCommand::run() {
       forced_rules.clear();
       continue;
     }
-    if (!quiet) fmt::print("{} steps {}, {} in the store\n", stale, done_to_steps(), cached);
-    return exit_code == kDamaged ? static_cast<int>(ExitCode::bad_input) : exit_code;
+    if (exit_code == kDamaged) {
+      throw InputError(
+          "inputs of steps keep being changed or damaged while they are in use; see above");
+    }
+    if (!quiet && exit_code == 0)
+      fmt::print("{} steps {}, {} in the store\n", stale, done_to_steps(), cached);
+    return exit_code;
   }
 }
 

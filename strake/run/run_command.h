@@ -50,7 +50,8 @@ struct RunCommand {
                   const std::vector<StepState>& states) const;
   int run_on_cluster(const Description& description, const Plan& plan,
                      const std::vector<StepState>& states) const;
-  int conclude(const RunFolder& folder, const std::vector<StepOrder>& orders) const;
+  int conclude(const RunFolder& folder, const std::vector<StepOrder>& orders,
+               const std::string& complaint) const;
   [[nodiscard]] const char* done_to_steps() const;
 };
 

@@ -52,7 +52,6 @@ void RunDisplay::update() {
 }
 
 void RunDisplay::finish() {
-  if (quiet_) return;
   clear_block();
   show_ended();
 }
@@ -63,6 +62,7 @@ void RunDisplay::show_ended() {
     const std::optional<StepOutcome> outcome = folder_.outcome(order.id);
     if (!outcome) continue;
     ended_.insert(order.id);
+    if (quiet_ && outcome->exit_code == 0) continue;
     clear_block();
     fmt::print(
         stderr, "[{}/{}] {}: {}{}\n", ended_.size(), orders_.size(), order.title,

@@ -13,7 +13,7 @@ namespace strake {
 /// redrawn on a terminal, and as a line every ten seconds elsewhere.
 class RunDisplay {
  public:
-  /// \param quiet  say nothing
+  /// \param quiet  say nothing but what failed
   RunDisplay(const RunFolder& folder, const std::vector<StepOrder>& orders, bool quiet);
 
   /// Looks at the run folder and shows what is new.

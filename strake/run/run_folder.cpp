@@ -78,24 +78,32 @@ auto read_json(const fs::path& file, Use use) {
 
 RunFolder RunFolder::create(const Store& store, const RunSettings& settings) {
   const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  const fs::path path = store.side_folder("runs") /
-                        fmt::format("{:%Y%m%d-%H%M%S}-{}", fmt::localtime(now), ::getpid());
+  const fs::path runs = store.side_folder("runs");
+  const std::string name = fmt::format("{:%Y%m%d-%H%M%S}-{}", fmt::localtime(now), ::getpid());
   std::error_code error;
-  for (const char* part : {"steps", "outcomes", "logs", "progress"}) {
-    fs::create_directories(path / part, error);
-    if (error) {
-      throw InputError(
-          fmt::format("store: cannot write '{}': {}; free space, check the rights, "
-                      "or use another store",
-                      path.string(), error.message()));
-    }
+  fs::create_directories(runs, error);
+  // Another round of this run in the same second, or another machine, may have that name.
+  fs::path path = runs / name;
+  for (int copy = 2; !error && !fs::create_directory(path, error) && !error; ++copy) {
+    path = runs / fmt::format("{}-{}", name, copy);
   }
-  write_text(path / "run.json", Json{{"store", settings.store.string()},
-                                     {"memory", settings.memory},
-                                     {"keep_going", settings.keep_going},
-                                     {"pipeline", settings.pipeline.string()},
-                                     {"targets", settings.targets}}
-                                    .dump(1));
+  for (const char* part : {"steps", "outcomes", "logs", "progress"}) {
+    if (!error) fs::create_directory(path / part, error);
+  }
+  if (error) {
+    throw InputError(
+        fmt::format("store: cannot write '{}': {}; free space, check the rights, "
+                    "or use another store",
+                    path.string(), error.message()));
+  }
+  write_text(path / "run.json",
+             Json{{"store", settings.store.string()},
+                  {"memory", settings.memory},
+                  {"keep_going", settings.keep_going},
+                  {"pipeline", settings.pipeline.string()},
+                  {"targets", settings.targets}}
+                 .dump(1),
+             Flush::no);
   return RunFolder(path);
 }
 
@@ -127,7 +135,7 @@ void RunFolder::write_order(const StepOrder& order) const {
                      {"seconds", order.seconds},
                      {"threads", order.threads},
                      {"forced", order.forced}};
-  write_text(path_ / "steps" / (order.id + ".json"), json.dump(1));
+  write_text(path_ / "steps" / (order.id + ".json"), json.dump(1), Flush::no);
 }
 
 StepOrder RunFolder::order(const std::string& id) const {
@@ -166,8 +174,8 @@ void RunFolder::write_outcome(const std::string& id, const StepOutcome& outcome)
                      {"seconds", outcome.seconds},
                      {"peak_bytes", outcome.peak_bytes}};
   constexpr bool kAsciiOnly = true;
-  write_text(outcome_file(id),
-             json.dump(1, ' ', kAsciiOnly, Json::error_handler_t::replace) + "\n");
+  write_text(outcome_file(id), json.dump(1, ' ', kAsciiOnly, Json::error_handler_t::replace) + "\n",
+             Flush::no);
 }
 
 std::optional<StepOutcome> RunFolder::outcome(const std::string& id) const {
@@ -255,8 +263,7 @@ std::vector<StepOrder> stale_orders(const Plan& plan, const std::vector<StepStat
     order.memory = step.resources.memory(step.faces);
     order.seconds = step.resources.time(step.faces);
     order.threads = step.resources.threads > 0 ? step.resources.threads : threads;
-    // A forced step that has no artifact yet is an ordinary one.
-    order.forced = states[s].entry.has_value();
+    order.forced = states[s].forced;
     orders.push_back(std::move(order));
   }
   return orders;

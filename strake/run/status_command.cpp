@@ -27,7 +27,7 @@ struct StatusCommand {
 
 const char* status_word(const StepState& state) {
   if (state.status == StepState::Status::cached) return "ready";
-  return state.reason.rfind("damaged", 0) == 0 ? "damaged" : "stale";
+  return state.damaged ? "damaged" : "stale";
 }
 
 void print_steps(const Plan& plan, const std::vector<StepState>& states) {
@@ -76,7 +76,8 @@ int StatusCommand::run() const {
   const Description description = pipeline.read();
   const Plan plan = make_plan(description, pipeline.selection(description));
   const Store store(plan.store);
-  KnownDigests digests(store.side_folder("digests"));
+  store.check_format();
+  KnownDigests digests(store);
   const std::vector<StepState> states =
       survey(plan, store, digests, {}, verify ? Store::Check::content : Store::Check::stamp);
   if (steps) {

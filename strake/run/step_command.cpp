@@ -1,3 +1,4 @@
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -12,8 +13,11 @@ void add_step_command(CLI::App& app, Action& chosen) {
   const auto id = std::make_shared<std::string>();
   command->add_option("run", *folder, "folder of the run")->type_name("FOLDER")->required();
   command->add_option("id", *id, "step to carry out")->type_name("ID")->required();
-  command->callback(
-      [folder, id, &chosen] { chosen = [folder, id] { return execute_step(*folder, *id); }; });
+  const auto parent = std::make_shared<std::int64_t>(0);
+  command->add_option("--parent", *parent, "process to end with")->type_name("PID");
+  command->callback([folder, id, parent, &chosen] {
+    chosen = [folder, id, parent] { return execute_step(*folder, *id, *parent); };
+  });
 }
 
 }  // namespace strake

@@ -63,6 +63,7 @@ class Surveyor {
   void look_at(std::size_t s) {
     const Step& step = plan_.steps[s];
     StepState& state = states_[s];
+    state.forced = forced_.count(step.rule) != 0;
     Provenance provenance = step_provenance(step);
     for (const StepInput& input : step.inputs) {
       if (input.step == kNoStep) {
@@ -79,10 +80,11 @@ class Surveyor {
     std::string damage;
     state.entry = store_.find(name, check_, &damage);
     if (!damage.empty()) {
+      state.damaged = true;
       state.reason = fmt::format("damaged: {} in {}", damage, store_.folder(name).string());
     } else if (!state.entry) {
       state.reason = reason_for(step, provenance);
-    } else if (forced_.count(step.rule) != 0) {
+    } else if (state.forced) {
       state.reason = "asked for with --force";
     } else {
       state.status = StepState::Status::cached;
@@ -118,13 +120,11 @@ class Surveyor {
   }
 
   std::vector<const Entry*> entries_of(const Step& step) {
-    if (!listed_) {
-      entries_ = store_.list();
-      listed_ = true;
-    }
+    const auto [listing, is_new] = entries_.try_emplace(step.model);
+    if (is_new) listing->second = store_.list(step.model);
     const std::string prefix = (fs::path(step.model) / (step.program + "-")).string();
     std::vector<const Entry*> found;
-    for (const Store::Listed& listed : entries_) {
+    for (const Store::Listed& listed : listing->second) {
       const bool is_same_stage = listed.folder.string().rfind(prefix, 0) == 0;
       if (is_same_stage && listed.entry && listed.entry->provenance.stage == step.program) {
         found.push_back(&*listed.entry);
@@ -139,8 +139,7 @@ class Surveyor {
   const std::set<std::string>& forced_;
   Store::Check check_;
   std::vector<StepState> states_;
-  std::vector<Store::Listed> entries_;  ///< of the store, once they are needed
-  bool listed_ = false;
+  std::map<std::string, std::vector<Store::Listed>> entries_;  ///< by model, once they are needed
 };
 
 }  // namespace

@@ -22,6 +22,8 @@ struct StepState {
   std::optional<std::string> key;  ///< known where the inputs are
   std::optional<Entry> entry;      ///< where there is an artifact
   std::string reason;              ///< why the status is what it is
+  bool damaged = false;            ///< there is an artifact, but not a sound one
+  bool forced = false;             ///< wanted anew, whatever is in the store
 };
 
 /// Compares a plan with the store. Reads the bytes of files only where their stamps have changed.

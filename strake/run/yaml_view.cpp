@@ -27,6 +27,11 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+/// What the parser has no mark for is an empty file, or an empty document.
+Place place_of(const std::filesystem::path& file, const YAML::Mark& mark) {
+  return {file, std::max(mark.line, 0) + 1, std::max(mark.column, 0) + 1};
+}
+
 }  // namespace
 
 void Place::fail(const std::string& message) const {
@@ -46,21 +51,25 @@ std::string suggestion(std::string_view name, const std::vector<std::string>& kn
 
 YamlView YamlView::load(const std::filesystem::path& file) {
   std::ifstream stream(file);
-  if (!stream) {
+  if (!stream || !std::filesystem::is_regular_file(file)) {
     throw InputError(file.string() +
                      ": cannot be read; name the pipeline file with --file, or see 'strake run "
                      "--help'");
   }
   try {
-    return {file, YAML::Load(stream)};
+    const std::vector<YAML::Node> documents = YAML::LoadAll(stream);
+    if (documents.size() > 1) {
+      place_of(file, documents[1].Mark()).fail("a second document begins; a pipeline is one");
+    }
+    const YAML::Node top = documents.empty() ? YAML::Node() : documents.front();
+    return {place_of(file, top.Mark()), top};
   } catch (const YAML::Exception& error) {
-    Place{file, error.mark.line + 1, error.mark.column + 1}.fail("no YAML: " + error.msg);
+    place_of(file, error.mark).fail("no YAML: " + error.msg);
   }
 }
 
-Place YamlView::place() const {
-  const YAML::Mark mark = node_.Mark();
-  return {file_, mark.line + 1, mark.column + 1};
+YamlView YamlView::below(const YAML::Node& node) const {
+  return {place_of(place_.file, node.Mark()), node};
 }
 
 std::string YamlView::text(const char* what) const {
@@ -71,7 +80,7 @@ std::string YamlView::text(const char* what) const {
 std::vector<YamlView> YamlView::items(const char* what) const {
   if (!is_list()) fail(fmt::format("{} is needed here, a list", what));
   std::vector<YamlView> views;
-  for (const YAML::Node& item : node_) views.push_back({file_, item});
+  for (const YAML::Node& item : node_) views.push_back(below(item));
   return views;
 }
 
@@ -81,11 +90,13 @@ std::vector<YamlView::Entry> YamlView::entries(const char* what) const {
   std::vector<Entry> all;
   std::map<std::string, int> lines;
   for (const auto& pair : node_) {
-    const YamlView key(file_, pair.first);
+    const YamlView key = below(pair.first);
     const std::string name = key.text("a name");
     const auto [seen, is_new] = lines.emplace(name, key.place().line);
     if (!is_new) key.fail(fmt::format("'{}' stands in line {} already", name, seen->second));
-    all.push_back({name, key.place(), {file_, pair.second}});
+    // What is not written has no place of its own.
+    const bool is_written = !pair.second.IsNull();
+    all.push_back({name, key.place(), is_written ? below(pair.second) : YamlView(key.place(), {})});
   }
   return all;
 }

@@ -30,8 +30,8 @@ class YamlView {
   /// \throw UsageError naming the line where the file is no YAML, InputError where it is missing
   static YamlView load(const std::filesystem::path& file);
 
-  [[nodiscard]] Place place() const;
-  [[noreturn]] void fail(const std::string& message) const { place().fail(message); }
+  [[nodiscard]] const Place& place() const { return place_; }
+  [[noreturn]] void fail(const std::string& message) const { place_.fail(message); }
 
   [[nodiscard]] bool is_null() const { return node_.IsNull(); }
   [[nodiscard]] bool is_scalar() const { return node_.IsScalar(); }
@@ -49,10 +49,10 @@ class YamlView {
                                                        const std::vector<std::string>& known) const;
 
  private:
-  YamlView(std::filesystem::path file, YAML::Node node)
-      : file_(std::move(file)), node_(std::move(node)) {}
+  YamlView(Place place, YAML::Node node) : place_(std::move(place)), node_(std::move(node)) {}
+  [[nodiscard]] YamlView below(const YAML::Node& node) const;
 
-  std::filesystem::path file_;
+  Place place_;
   YAML::Node node_;
 };
 

@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <system_error>
 
 #include "common/core/error.h"
 
@@ -18,6 +19,11 @@ EntryLock::EntryLock(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  // Somebody may be removing the entry right now, and with it the folder just made.
+  if (descriptor_ < 0 && errno == ENOENT &&
+      (!error || error == std::errc::no_such_file_or_directory)) {
+    return;
+  }
   if (descriptor_ < 0) {
     throw InputError("store: cannot write '" + folder.string() + "': " + std::strerror(errno) +
                      "; free space, check the rights, or use another store");
@@ -35,6 +41,8 @@ EntryLock::EntryLock(const fs::path& folder) {
           mine.st_ino == present.st_ino;
 }
 
-EntryLock::~EntryLock() { ::close(descriptor_); }
+EntryLock::~EntryLock() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
 
 }  // namespace strake

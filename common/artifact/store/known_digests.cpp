@@ -36,8 +36,9 @@ std::string KnownDigests::digest(const fs::path& file) {
   if (stamp) {
     std::ifstream stream(record);
     const Json known = Json::parse(stream, nullptr, false);
-    if (known.is_object() && known.value("file", "") == name && known.contains("digest") &&
-        known["digest"].is_string() && known.value("stamp", Json()) == to_json(*stamp)) {
+    if (known.is_object() && known.value("file", Json()) == name &&
+        known.value("stamp", Json()) == to_json(*stamp) &&
+        known.value("digest", Json()).is_string()) {
       return known["digest"];
     }
   }
@@ -45,10 +46,11 @@ std::string KnownDigests::digest(const fs::path& file) {
   const auto now = std::chrono::duration_cast<std::chrono::nanoseconds>(
                        std::chrono::system_clock::now().time_since_epoch())
                        .count();
-  if (stamp && stamp_of(file) == stamp && stamp->changed_ns < now - kTooFreshNs) {
+  if (access_ == Store::Access::full && stamp && stamp_of(file) == stamp &&
+      stamp->changed_ns < now - kTooFreshNs) {
     const Json known = {{"file", name}, {"stamp", to_json(*stamp)}, {"digest", digest}};
     try {
-      write_text(record, known.dump());
+      write_text(record, known.dump(-1, ' ', false, Json::error_handler_t::replace), Flush::no);
     } catch (const InputError&) {
       return digest;  // remembering is a convenience: a store may be read-only
     }

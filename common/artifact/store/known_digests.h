@@ -4,14 +4,17 @@
 #include <optional>
 #include <string>
 
+#include "common/artifact/store/store.h"
+
 namespace strake {
 
 /// Digests of files outside the store, remembered as long as the files' stamps stay the same, so
 /// that a model of a gigabyte is read once and not at every look.
 class KnownDigests {
  public:
-  /// \param folder  where to remember; may be missing or not writable, then nothing is remembered
-  explicit KnownDigests(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  /// Remembers in the store; where that is not writable, nothing is remembered.
+  explicit KnownDigests(const Store& store)
+      : folder_(store.side_folder("digests")), access_(store.access()) {}
 
   /// `digest_file` of a file. \throw InputError where it cannot be read
   std::string digest(const std::filesystem::path& file);
@@ -20,6 +23,7 @@ class KnownDigests {
 
  private:
   std::filesystem::path folder_;
+  Store::Access access_;
 };
 
 }  // namespace strake

@@ -26,8 +26,14 @@ constexpr const char* kManifest = "manifest.json";
 constexpr const char* kFormatFile = "strake-store.json";
 constexpr std::size_t kKeyDigitsInName = 16;
 
+/// Digest of all that a manifest says, so that a damaged one is known from a sound one.
+std::string seal_of(Json manifest) {
+  manifest.erase("seal");
+  return digest_text(manifest.dump());
+}
+
 std::string manifest_text(const Entry& entry) {
-  const Json json = {
+  Json json = {
       {"key", entry.key},
       {"file", entry.file.filename().string()},
       {"digest", entry.digest},
@@ -39,12 +45,14 @@ std::string manifest_text(const Entry& entry) {
       {"seconds", entry.seconds},
       {"peak_bytes", entry.peak_bytes},
   };
+  json["seal"] = seal_of(json);
   return json.dump(1) + "\n";
 }
 
 /// \throw nlohmann::json::exception, InputError where the text is no manifest
 Entry parse_manifest(const fs::path& folder, std::istream& stream) {
   const Json json = Json::parse(stream);
+  if (json.at("seal") != seal_of(json)) throw InputError("its seal is broken");
   Entry entry;
   entry.key = json.at("key");
   entry.file = folder / fs::path(json.at("file").get<std::string>()).filename();
@@ -78,7 +86,11 @@ std::string fault_of(Entry& entry, Store::Check check) {
     return fmt::format("{} has {} bytes instead of {}", name, stamp->size, entry.stamp.size);
   }
   if (check == Store::Check::stamp && stamp == entry.stamp) return "";
-  if (digest_file(entry.file) != entry.digest) return name + " has other bytes than recorded";
+  try {
+    if (digest_file(entry.file) != entry.digest) return name + " has other bytes than recorded";
+  } catch (const InputError& error) {
+    return error.what();
+  }
   entry.stamp = *stamp;
   return "";
 }
@@ -95,39 +107,46 @@ fs::path EntryName::folder() const {
 
 fs::path Store::side_folder(const std::string& name) const { return root_ / ("." + name); }
 
-void Store::prepare() const {
-  const fs::path format_file = root_ / kFormatFile;
-  std::ifstream stream(format_file);
-  if (stream) {
-    const Json json = Json::parse(stream, nullptr, false);
-    const int format = json.is_object() ? json.value("format", 0) : 0;
-    if (format < 1 || format > kStoreFormat) {
-      throw InputError(
-          fmt::format("store '{}' has format {}, and this program knows {}: a newer "
-                      "strake made it; update this one, or use another store",
-                      root_.string(), format, kStoreFormat));
-    }
+void Store::check_format() const {
+  std::ifstream stream(root_ / kFormatFile);
+  if (!stream) return;
+  const Json json = Json::parse(stream, nullptr, false);
+  const Json format = json.is_object() ? json.value("format", Json()) : Json();
+  if (format != kStoreFormat) {
+    throw InputError(
+        fmt::format("store '{}' has format '{}', and this program knows {}: another version of "
+                    "strake made it; use that one, or another store",
+                    root_.string(), format.dump(), kStoreFormat));
   }
+}
+
+void Store::prepare() const {
   std::error_code error;
   fs::create_directories(side_folder("digests"), error);
   if (!fs::is_directory(root_)) {
     throw InputError(fmt::format("store '{}' cannot be made: {}; check the rights, or name another",
                                  root_.string(), error.message()));
   }
-  if (!stream) write_text(format_file, Json{{"format", kStoreFormat}}.dump() + "\n");
+  const fs::path format_file = root_ / kFormatFile;
+  if (!fs::exists(format_file, error)) {
+    write_text(format_file, Json{{"format", kStoreFormat}}.dump() + "\n");
+  }
 }
 
 std::optional<Entry> Store::find(const EntryName& name, Check check, std::string* damage) const {
   std::optional<Entry> entry = read_manifest(folder(name), damage);
   if (!entry) return std::nullopt;
-  if (entry->key != name.key) return std::nullopt;  // another key with the same first digits
+  if (entry->key != name.key) {
+    if (damage != nullptr) *damage = "its manifest is that of another entry";
+    return std::nullopt;
+  }
   const FileStamp recorded = entry->stamp;
   const std::string fault = fault_of(*entry, check);
   if (!fault.empty()) {
     if (damage != nullptr) *damage = fault;
     return std::nullopt;
   }
-  if (entry->stamp != recorded) {
+  if (entry->stamp != recorded && access_ == Access::full) {
     try {  // e.g. after the store was copied: remember that the bytes are right
       write_text(folder(name) / kManifest, manifest_text(*entry));
     } catch (const InputError&) {
@@ -145,7 +164,9 @@ void Store::add(const EntryName& name, Entry& entry) const {
   write_text(folder(name) / kManifest, manifest_text(entry));
 }
 
-void Store::withdraw(const EntryName& name) const {
+void Store::withdraw_if_damaged(const EntryName& name) const {
+  const EntryLock lock(folder(name));
+  if (!lock.is_held() || find(name, Check::content)) return;
   std::error_code error;
   fs::remove(folder(name) / kManifest, error);
   if (error) {
@@ -154,13 +175,20 @@ void Store::withdraw(const EntryName& name) const {
   }
 }
 
-std::vector<Store::Listed> Store::list() const {
-  std::vector<Listed> all;
+std::vector<Store::Listed> Store::list(const std::string& model) const {
+  std::vector<fs::path> models;
   std::error_code ignored;
-  for (const auto& model : fs::directory_iterator(root_, ignored)) {
-    const bool is_side = model.path().filename().string().front() == '.';
-    if (!model.is_directory(ignored) || is_side) continue;
-    for (const auto& folder : fs::directory_iterator(model.path(), ignored)) {
+  if (!model.empty()) {
+    models.push_back(root_ / model);
+  } else {
+    for (const auto& folder : fs::directory_iterator(root_, ignored)) {
+      const bool is_side = folder.path().filename().string().front() == '.';
+      if (!is_side) models.push_back(folder.path());
+    }
+  }
+  std::vector<Listed> all;
+  for (const fs::path& path : models) {
+    for (const auto& folder : fs::directory_iterator(path, ignored)) {
       if (!folder.is_directory(ignored)) continue;
       Listed listed;
       listed.folder = folder.path().lexically_relative(root_);
@@ -180,6 +208,7 @@ std::vector<Store::Listed> Store::list() const {
 }
 
 void Store::touch(const Entry& entry) const {
+  if (access_ == Access::look_only) return;
   ::utimensat(AT_FDCWD, (entry.file.parent_path() / kManifest).c_str(), nullptr, 0);
 }
 
@@ -190,7 +219,8 @@ bool Store::remove(const fs::path& folder) const {
   std::error_code error;
   fs::create_directories(trash, error);
   // Out of sight in one step, so that nobody sees half an entry.
-  const fs::path grave = trash / fmt::format("{}-{}", folder.filename().string(), ::getpid());
+  const fs::path grave = trash / fmt::format("{}-{}-{}", folder.parent_path().string(),
+                                             folder.filename().string(), ::getpid());
   fs::rename(root_ / folder, grave, error);
   if (error) {
     throw InputError("store: cannot remove '" + folder.string() + "': " + error.message());
@@ -198,6 +228,13 @@ bool Store::remove(const fs::path& folder) const {
   fs::remove_all(grave, error);
   fs::remove((root_ / folder).parent_path(), error);  // the model's folder, once it is empty
   return true;
+}
+
+void Store::empty_trash() const {
+  std::error_code ignored;
+  for (const auto& grave : fs::directory_iterator(side_folder("trash"), ignored)) {
+    fs::remove_all(grave.path(), ignored);
+  }
 }
 
 }  // namespace strake

@@ -46,7 +46,15 @@ class Store {
     content,  ///< read it always
   };
 
-  explicit Store(std::filesystem::path root) : root_(std::move(root)) {}
+  enum class Access {
+    full,
+    look_only,  ///< note nothing, not even what is found out about files
+  };
+
+  explicit Store(std::filesystem::path root, Access access = Access::full)
+      : root_(std::move(root)), access_(access) {}
+
+  [[nodiscard]] Access access() const { return access_; }
 
   [[nodiscard]] const std::filesystem::path& root() const { return root_; }
   [[nodiscard]] std::filesystem::path folder(const EntryName& name) const {
@@ -55,8 +63,9 @@ class Store {
   /// For small things that belong to the store but to no entry: "runs", "digests".
   [[nodiscard]] std::filesystem::path side_folder(const std::string& name) const;
 
-  /// Makes the folder where it is missing.
-  /// \throw InputError where that fails, or where a newer strake uses the folder
+  /// \throw InputError where a newer strake uses the folder
+  void check_format() const;
+  /// Makes the folder where it is missing. \throw InputError where that fails
   void prepare() const;
 
   /// The entry, if it is there and whole.
@@ -65,8 +74,8 @@ class Store {
                                           std::string* damage = nullptr) const;
   /// Records an artifact that lies complete in the entry's folder; from now on it is there.
   void add(const EntryName& name, Entry& entry) const;
-  /// Declares that an entry is not there, e.g. since it is damaged. The caller has its lock.
-  void withdraw(const EntryName& name) const;
+  /// Declares that an entry is not there where it is damaged, unless somebody is making it anew.
+  void withdraw_if_damaged(const EntryName& name) const;
 
   /// What is in the store, for looking through it and cleaning up.
   struct Listed {
@@ -75,14 +84,18 @@ class Store {
     std::int64_t bytes = 0;        ///< of all files
     std::int64_t used_ns = 0;      ///< when it was last made or used
   };
-  [[nodiscard]] std::vector<Listed> list() const;
+  /// \param model  only its entries; "": all
+  [[nodiscard]] std::vector<Listed> list(const std::string& model = "") const;
   /// Notes that the entry was of use, for `list`. Does nothing in a read-only store.
   void touch(const Entry& entry) const;
   /// Removes an entry, unless somebody is writing it. \return whether it is gone
   [[nodiscard]] bool remove(const std::filesystem::path& folder) const;
+  /// Removes what an interrupted `remove` left behind.
+  void empty_trash() const;
 
  private:
   std::filesystem::path root_;
+  Access access_;
 };
 
 }  // namespace strake

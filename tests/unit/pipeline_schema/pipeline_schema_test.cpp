@@ -65,11 +65,13 @@ TEST(PipelineSchema, AcceptsEveryForm) {
   EXPECT_TRUE(accepts("{version: 1, models: {a: a.obj, b: {sample: {kind: torus, faces: 500}}}}"));
   EXPECT_TRUE(accepts("{version: 1, models: [a.obj], options: {trace: {tolerance: 0.1%}}}"));
   EXPECT_TRUE(accepts("{version: 1, models: [a.obj], variants: {s: {trace: {seed: [1, 2]}}}}"));
-  EXPECT_TRUE(accepts("{version: 1, models: [a.obj], stages: {import: , coarse: {program: trace, "
-                      "output: other, options: {seed: 3}}}}"));
+  EXPECT_TRUE(
+      accepts("{version: 1, models: [a.obj], stages: {import: , coarse: {program: trace, "
+              "output: other, options: {seed: 3}}}}"));
   EXPECT_TRUE(accepts("{version: 1, models: [a.obj], outputs: {quads: ['a.obj', 'b.ply']}}"));
-  EXPECT_TRUE(accepts("{version: 1, models: [a.obj], stages: {tensor: {resources: {parts: 4, "
-                      "memory: 2GB}}}}"));
+  EXPECT_TRUE(
+      accepts("{version: 1, models: [a.obj], stages: {tensor: {resources: {parts: 4, "
+              "memory: 2GB}}}}"));
 }
 
 TEST(PipelineSchema, RefusesMistakes) {

@@ -1,0 +1,138 @@
+#include "strake/run/plan.h"
+
+#include <algorithm>
+#include <set>
+
+#include "common/core/error.h"
+#include "tests/unit/run/pipeline_file.h"
+
+namespace strake::run_test {
+namespace {
+
+class PlanTest : public PipelineFileTest {
+ protected:
+  [[nodiscard]] Plan plan(const std::string& text, const Selection& selection = {}) const {
+    return make_plan(describe("version: 1\n" + text), selection);
+  }
+  static std::string ids(const Plan& plan) {
+    std::string all;
+    for (const Step& step : plan.steps) all += (all.empty() ? "" : " ") + step.id;
+    return all;
+  }
+  static const Step& step(const Plan& plan, const std::string& id) {
+    const auto found = std::find_if(plan.steps.begin(), plan.steps.end(),
+                                    [&](const Step& other) { return other.id == id; });
+    EXPECT_NE(found, plan.steps.end()) << id << " is not among " << ids(plan);
+    return found == plan.steps.end() ? plan.steps.front() : *found;
+  }
+};
+
+TEST_F(PlanTest, OneModelIsOneChain) {
+  EXPECT_EQ(ids(plan("models: [a.obj]\n")), "a.import a.tensor a.smooth a.trace a.mesh a.evaluate");
+}
+
+TEST_F(PlanTest, SamplesAreMadeFirst) {
+  const Plan made = plan("models: {t: {sample: {kind: torus, faces: 2000}}}\n");
+  EXPECT_EQ(ids(made), "t.sample t.import t.tensor t.smooth t.trace t.mesh t.evaluate");
+  EXPECT_EQ(step(made, "t.import").inputs.at(0).step, 0u);
+}
+
+TEST_F(PlanTest, VariantsShareWhatTheyDoNotChange) {
+  const Plan made = plan(
+      "models: [a.obj]\nvariants: {x: {}, y: {trace: {seed: 2}}, z: {evaluate: {samples: "
+      "5000}}}\n");
+  EXPECT_EQ(ids(made),
+            "a.import a.tensor a.smooth a.trace.x a.mesh.x a.evaluate.x a.trace.y a.mesh.y "
+            "a.evaluate.y a.evaluate.z");
+  EXPECT_EQ(step(made, "a.smooth").variants, (std::vector<std::string>{"x", "y", "z"}));
+  EXPECT_EQ(step(made, "a.mesh.x").variants, (std::vector<std::string>{"x", "z"}));
+}
+
+TEST_F(PlanTest, AWrittenDefaultIsNoOtherVariant) {
+  EXPECT_EQ(plan("models: [a.obj]\nvariants: {x: {}, y: {trace: {seed: 1}}}\n").steps.size(), 6u);
+}
+
+TEST_F(PlanTest, ModelsShareNothing) {
+  const Plan made = plan("models: {x: a.obj, y: a.obj}\n");
+  EXPECT_EQ(made.steps.size(), 12u);
+}
+
+TEST_F(PlanTest, EachStepComesAfterThoseItNeeds) {
+  const Plan made = plan(
+      "models: [a.obj, b.ply]\nvariants: {x: {trace: {seed: [1, 2, 3]}}, y: {tensor: {radius: 2%}}}"
+      "\nstages: {evaluate: {}, mesh: {}, trace: {}, smooth: {}, tensor: {}, import: {}}\n"
+      "outputs: {quads: ['{model}-{variant}.obj', '{model}-{variant}.hdf']}\n");
+  std::set<std::string> ids;
+  for (std::size_t s = 0; s < made.steps.size(); ++s) {
+    for (const std::size_t need : needs_of(made.steps[s])) EXPECT_LT(need, s);
+    EXPECT_TRUE(ids.insert(made.steps[s].id).second) << made.steps[s].id;
+  }
+}
+
+TEST_F(PlanTest, StrongerSettingsWin) {
+  const std::string text =
+      "models:\n  m: {file: a.obj, options: {trace: {seed: 3}}}\n  n: b.ply\n"
+      "options: {trace: {seed: 2}}\nvariants: {v: {}, w: {trace: {seed: 4}}}\n";
+  const auto seed = [&](const Plan& made, const std::string& id) {
+    return step_provenance(step(made, id)).options;
+  };
+  const auto value = [](const std::vector<Provenance::OptionRecord>& options) {
+    for (const auto& option : options) {
+      if (option.name == "seed") return option.value;
+    }
+    return std::string();
+  };
+  const Plan made = plan(text);
+  EXPECT_EQ(value(seed(made, "m.trace.v")), "3");
+  EXPECT_EQ(value(seed(made, "n.trace.v")), "2");
+  EXPECT_EQ(value(seed(made, "m.trace.w")), "4");
+  Selection selection;
+  selection.settings = {{"trace", "seed", "9", {}}};
+  const Plan forced = plan(text, selection);
+  EXPECT_EQ(value(seed(forced, "m.trace")), "9") << "all variants are the same now";
+}
+
+TEST_F(PlanTest, OutputsGoToTheStepThatGivesThem) {
+  const Plan made =
+      plan("models: [a.obj]\noutputs: {quads: [x.hdf, x.obj, y.obj, x.off], report: x.json}\n");
+  const auto file = [&](const char* name) { return (folder_ / name).string(); };
+  EXPECT_EQ(step(made, "a.mesh").deliver_to, std::vector<std::string>{file("x.hdf")});
+  EXPECT_EQ(step(made, "a.export.obj").deliver_to,
+            (std::vector<std::string>{file("x.obj"), file("y.obj")}));
+  EXPECT_EQ(step(made, "a.export.off").deliver_to, std::vector<std::string>{file("x.off")});
+  EXPECT_EQ(step(made, "a.evaluate").deliver_to, std::vector<std::string>{file("x.json")});
+}
+
+TEST_F(PlanTest, UntilLeavesOutWhatComesAfterAndBeside) {
+  Selection selection;
+  selection.until = "trace";
+  EXPECT_EQ(ids(plan("models: [a.obj]\noutputs: {quads: x.obj}\n", selection)),
+            "a.import a.tensor a.smooth a.trace");
+}
+
+TEST_F(PlanTest, TargetsAreModelsAndTheirVariants) {
+  const std::string text = "models: [a.obj, b.ply]\nvariants: {x: {}, y: {trace: {seed: 2}}}\n";
+  Selection selection;
+  selection.targets = {"b/y"};
+  EXPECT_EQ(ids(plan(text, selection)), "b.import b.tensor b.smooth b.trace b.mesh b.evaluate");
+  for (const char* bad : {"c", "a/z", "a/", "/x", ""}) {
+    selection.targets = {bad};
+    EXPECT_THROW(plan(text, selection), UsageError) << bad;
+  }
+}
+
+TEST_F(PlanTest, LongNamesMakeFileNamesThatFit) {
+  const std::string name(100, 'm');
+  const std::string variant(99, 'v');
+  const Plan made = plan("models: {" + name + ": a.obj}\nvariants: {" + variant + "1: {}, " +
+                         variant + "2: {trace: {seed: 2}}}\n");
+  std::set<std::string> ids;
+  for (const Step& each : made.steps) {
+    EXPECT_LE(each.id.size(), 200u);
+    ids.insert(each.id);
+  }
+  EXPECT_EQ(ids.size(), 9u);
+}
+
+}  // namespace
+}  // namespace strake::run_test
