@@ -10,10 +10,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kAll =
-    "torus evaluate, torus export.obj, torus fit, torus import, torus mesh, torus smooth, "
-    "torus tensor, torus trace";
-constexpr const char* kFromTrace =
-    "torus evaluate, torus export.obj, torus fit, torus mesh, torus trace";
+    "torus evaluate, torus export.obj, torus import, torus mesh, torus smooth, torus tensor, "
+    "torus trace";
+constexpr const char* kFromTrace = "torus evaluate, torus export.obj, torus mesh, torus trace";
 
 /// One model in a file, run once.
 class Incremental : public PipelineTest {
@@ -26,11 +25,11 @@ class Incremental : public PipelineTest {
   }
   void describe(const std::string& seed) const {
     pipeline("models: [torus.obj]\noptions: {trace: {seed: " + seed +
-             "}}\noutputs: {fitted: 'out/{model}.obj', report: 'out/{model}.json'}\n");
+             "}}\noutputs: {quads: 'out/{model}.obj', report: 'out/{model}.json'}\n");
   }
   void expect_nothing_to_do() {
     const std::string said = must("strake run");
-    EXPECT_EQ(said, "0 steps run, 8 in the store\n");
+    EXPECT_EQ(said, "0 steps run, 7 in the store\n");
   }
 };
 
@@ -76,9 +75,9 @@ TEST_F(Incremental, AnotherCommentImportsOnly) {
   put("torus.obj", "# saved again\n" + bytes("torus.obj"));
   const auto steps = run_steps();
   EXPECT_EQ(names(steps, "ran"), "torus import");
-  EXPECT_EQ(steps.size(), 8u);
+  EXPECT_EQ(steps.size(), 7u);
   EXPECT_EQ(names(steps, "found"),
-            "torus evaluate, torus export.obj, torus fit, torus mesh, torus smooth, torus tensor, "
+            "torus evaluate, torus export.obj, torus mesh, torus smooth, torus tensor, "
             "torus trace");
   expect_nothing_to_do();
 }
@@ -86,7 +85,7 @@ TEST_F(Incremental, AnotherCommentImportsOnly) {
 TEST_F(Incremental, WrittenDefaultsChangeNothing) {
   pipeline(
       "models: [torus.obj]\noptions: {tensor: {radius: 1.0%}, trace: {seed: 01}}\n"
-      "outputs: {fitted: 'out/{model}.obj', report: 'out/{model}.json'}\n");
+      "outputs: {quads: 'out/{model}.obj', report: 'out/{model}.json'}\n");
   expect_nothing_to_do();
 }
 
@@ -110,8 +109,7 @@ TEST_F(Incremental, VariantsShareWhatTheyDoNotChange) {
   pipeline(
       "models: [torus.obj]\nvariants: {a: {}, b: {trace: {seed: 2}}, c: {trace: {seed: 1}}}\n");
   const auto steps = run_steps();
-  EXPECT_EQ(names(steps, "ran"),
-            "torus evaluate (b), torus fit (b), torus mesh (b), torus trace (b)");
+  EXPECT_EQ(names(steps, "ran"), "torus evaluate (b), torus mesh (b), torus trace (b)");
 }
 
 }  // namespace

@@ -12,7 +12,11 @@ namespace strake::pipeline_test {
 namespace fs = std::filesystem;
 
 void PipelineTest::pipeline(const std::string& text) const {
-  put("pipeline.yaml", "version: 1\nstore: store\n" + text);
+  put("pipeline.yaml",
+      "version: 1\nstore: store\n"
+      "stages: {import: {}, tensor: {}, smooth: {}, trace: {}, mesh: {},"
+      " evaluate: {inputs: {candidate: quads}, options: {samples: 1000}}}\n" +
+          text);
 }
 
 std::map<std::string, std::string> PipelineTest::run_steps(const std::string& arguments) {

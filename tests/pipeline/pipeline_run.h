@@ -11,7 +11,8 @@ namespace strake::pipeline_test {
 /// A folder with a pipeline file and its store in `store`, and what to ask about them.
 class PipelineTest : public ProgramTest {
  protected:
-  /// Writes pipeline.yaml: the version, the store, and `text`.
+  /// Writes pipeline.yaml: the version, the store, the stages import, tensor, smooth, trace, mesh
+  /// and evaluate, and `text`.
   void pipeline(const std::string& text) const;
   /// `strake run` with these arguments; must succeed. What became of each step that was run:
   /// "torus trace" -> "ran", "found".

@@ -12,7 +12,12 @@ namespace {
 class PlanTest : public PipelineFileTest {
  protected:
   [[nodiscard]] Plan plan(const std::string& text, const Selection& selection = {}) const {
-    return make_plan(describe("version: 1\n" + text), selection);
+    return make_plan(
+        describe("version: 1\n"
+                 "stages: {evaluate: {inputs: {candidate: quads}}, mesh: {}, trace: {},"
+                 " smooth: {}, tensor: {}, import: {}}\n" +
+                 text),
+        selection);
   }
   static std::string ids(const Plan& plan) {
     std::string all;
@@ -60,7 +65,7 @@ TEST_F(PlanTest, ModelsShareNothing) {
 TEST_F(PlanTest, EachStepComesAfterThoseItNeeds) {
   const Plan made = plan(
       "models: [a.obj, b.ply]\nvariants: {x: {trace: {seed: [1, 2, 3]}}, y: {tensor: {radius: 2%}}}"
-      "\nstages: {evaluate: {}, mesh: {}, trace: {}, smooth: {}, tensor: {}, import: {}}\n"
+      "\n"
       "outputs: {quads: ['{model}-{variant}.obj', '{model}-{variant}.hdf']}\n");
   std::set<std::string> ids;
   for (std::size_t s = 0; s < made.steps.size(); ++s) {

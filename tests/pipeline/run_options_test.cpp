@@ -1,0 +1,265 @@
+#include <fstream>
+
+#include "common/artifact/digest.h"
+#include "common/artifact/store/entry_lock.h"
+#include "common/artifact/store/store.h"
+#include "tests/pipeline/pipeline_run.h"
+
+namespace strake::pipeline_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kUsage = 2;
+constexpr int kBadInput = 3;
+constexpr int kPrecondition = 4;
+
+class RunOptions : public PipelineTest {
+ protected:
+  RunOptions() {
+    pipeline(
+        "models: {torus: {sample: {kind: torus, faces: 2000}}}\noutputs: {quads: '{model}.obj'}\n");
+  }
+};
+
+TEST_F(RunOptions, DryRunWritesNothing) {
+  const auto before = snapshot();
+  EXPECT_EQ(must("strake run --dry-run").find("run    torus sample\n"), 0u);
+  EXPECT_EQ(snapshot(), before);
+  must("strake run -q --until trace");
+  const auto between = snapshot();
+  const std::string said = must("strake run -n --explain");
+  EXPECT_NE(said.find("cached torus trace: nothing"), std::string::npos) << said;
+  EXPECT_NE(said.find("run    torus mesh: never made before"), std::string::npos) << said;
+  EXPECT_NE(said.find("3 steps to run, 5 in the store"), std::string::npos) << said;
+  EXPECT_EQ(snapshot(), between);
+}
+
+TEST_F(RunOptions, ExplainNamesWhatChanged) {
+  must("strake run -q");
+  const std::string said =
+      must("strake run -n --explain --set trace.seed=7 --set mesh.max-sides=4");
+  EXPECT_NE(said.find("run    torus trace: seed 1 -> 7\n"), std::string::npos) << said;
+  EXPECT_NE(said.find("run    torus mesh: its input 'lines' has to be made first\n"),
+            std::string::npos)
+      << said;
+}
+
+TEST_F(RunOptions, UntilAndFrom) {
+  EXPECT_EQ(names(run_steps("--until tensor"), "ran"), "torus import, torus sample, torus tensor");
+  EXPECT_FALSE(fs::exists(file("torus.obj")));
+  must_fail(kPrecondition, "strake run --from trace", "torus smooth");
+  must_fail(kPrecondition, "strake run --from mesh --until smooth", "torus smooth");
+  EXPECT_EQ(names(run_steps("--from smooth --until trace"), "ran"), "torus smooth, torus trace");
+  must_fail(kUsage, "strake run --from trase", "did you mean 'trace'");
+  must_fail(kUsage, "strake run --until trase", "did you mean 'trace'");
+  must_fail(kUsage, "strake run --force trase", "did you mean 'trace'");
+  must_fail(kUsage, "strake run --set trace.seed", "trace.seed=7");
+  must_fail(kUsage, "strake run tours", "did you mean 'torus'");
+  must_fail(kUsage, "strake run --memory lots", "16GB");
+}
+
+TEST_F(RunOptions, SetIsForThisTimeOnly) {
+  must("strake run -q");
+  const std::string usual = bytes("torus.obj");
+  EXPECT_EQ(names(run_steps("--set trace.seed=7"), "ran"),
+            "torus evaluate, torus export.obj, torus mesh, torus trace");
+  EXPECT_NE(bytes("torus.obj"), usual);
+  EXPECT_EQ(must("strake run"), "0 steps run, 8 in the store\n");
+  EXPECT_EQ(bytes("torus.obj"), usual);
+}
+
+TEST_F(RunOptions, ForceRunsAgainAndLeavesEqualBytesAlone) {
+  must("strake run -q");
+  const auto time = fs::last_write_time(artifact("torus/trace-", "lines.hdf"));
+  const Outcome outcome = run("strake run --force trace --force import");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(names(steps_in(outcome.out), "ran"), "torus import, torus trace");
+  EXPECT_EQ(outcome.err.find("warning"), std::string::npos) << outcome.err;
+  EXPECT_EQ(fs::last_write_time(artifact("torus/trace-", "lines.hdf")), time);
+}
+
+TEST_F(RunOptions, ForceHoldsWhereInputsAreMadeAnewToo) {
+  must("strake run -q");
+  fs::remove(artifact("torus/import-", "mesh.hdf"));
+  EXPECT_EQ(names(run_steps("--force trace"), "ran"), "torus import, torus trace");
+}
+
+TEST_F(RunOptions, ForceWarnsWhereTheBytesDiffer) {
+  must("strake run -q");
+  const fs::path lines = artifact("torus/trace-", "lines.hdf");
+  const std::string whole = digest_file(lines);
+  const Store store(file("store"));
+  for (const Store::Listed& listed : store.list()) {
+    if (listed.folder.string().rfind("torus/trace-", 0) != 0) continue;
+    flip_bit(lines);
+    Entry entry = listed.entry.value();
+    entry.digest = digest_file(lines);  // as if the stage had given this the first time
+    store.add({"torus", "trace", entry.key}, entry);
+  }
+  const Outcome outcome = run("strake run --force trace");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("other bytes than before"), std::string::npos) << outcome.err;
+  EXPECT_EQ(digest_file(lines), whole);
+}
+
+TEST_F(RunOptions, QuietSaysNothingButErrors) {
+  const Outcome fine = run("strake run -q");
+  EXPECT_EQ(fine.out + fine.err, "");
+  put("bad.obj", "nothing of use\n");
+  pipeline("models: [bad.obj]\n");
+  const Outcome failed = run("strake run -q");
+  EXPECT_EQ(failed.exit_code, kBadInput);
+  EXPECT_EQ(failed.out, "");
+  EXPECT_NE(failed.err.find("bad import: failed (3)"), std::string::npos) << failed.err;
+}
+
+TEST_F(RunOptions, OutputIsPlainWhereThereIsNoTerminal) {
+  const Outcome outcome = run("strake run");
+  EXPECT_EQ(outcome.err.find('\033'), std::string::npos);
+  EXPECT_EQ(outcome.err.find('\r'), std::string::npos);
+  EXPECT_EQ(outcome.err.find("[1/8] torus sample: ran, "), 0u) << outcome.err;
+}
+
+TEST_F(RunOptions, BytesDoNotDependOnTheNumberOfJobs) {
+  must("strake run -q --jobs 1");
+  const std::string one = bytes("torus.obj");
+  fs::remove_all(file("store"));
+  must("strake run -q --jobs 4");
+  EXPECT_EQ(bytes("torus.obj"), one);
+}
+
+TEST_F(RunOptions, BadFilesLeaveNothingBehind) {
+  put("pipeline.yaml", "version: 1\nmodels: {x: {sample: {kind: teapot}}}\n");
+  must_fail(kUsage, "strake run", "pipeline.yaml:2:23: ");
+  put("pipeline.yaml", "version: 1\nmodels: [missing.obj]\n");
+  must_fail(kUsage, "strake run", "pipeline.yaml:2:10: there is no file");
+  must_fail(kBadInput, "strake run -f nowhere.yaml", "nowhere.yaml");
+  must_fail(kBadInput, "strake run -f .", "cannot be read");
+}
+
+/// Two models of which one cannot be imported.
+class Failure : public PipelineTest {
+ protected:
+  Failure() {
+    put("bad.obj", "nothing of use\n");
+    pipeline("models: {z: {sample: {kind: torus, faces: 2000}}, bad: bad.obj}\n");
+  }
+};
+
+TEST_F(Failure, TellsWhatTheProgramSaidAndItsExitCode) {
+  const Outcome outcome = run("strake run bad");
+  EXPECT_EQ(outcome.exit_code, kBadInput);
+  EXPECT_NE(outcome.err.find("strake-import: error: "), std::string::npos) << outcome.err;
+  const std::size_t log = outcome.err.find("log: ");
+  ASSERT_NE(log, std::string::npos) << outcome.err;
+  const std::string path = outcome.err.substr(log + 5, outcome.err.find('\n', log) - log - 5);
+  std::ifstream stream(path);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  EXPECT_NE(text.find("strake-import: error: "), std::string::npos) << path << text;
+  EXPECT_NE(text.find("exit code 3"), std::string::npos) << text;
+  EXPECT_EQ(names(steps_in(outcome.out), "failed (3)"), "bad import");
+  EXPECT_EQ(steps_in(outcome.out)["bad tensor"], "not run");
+}
+
+TEST_F(Failure, StopsAndReturnsTheFailuresExitCode) {
+  // Steps of the sound model that are not run any more come first in the plan.
+  const Outcome outcome = run("strake run --jobs 2");
+  EXPECT_EQ(outcome.exit_code, kBadInput) << outcome.err;
+  EXPECT_EQ(steps_in(outcome.out)["z evaluate"], "not run");
+}
+
+TEST_F(Failure, KeepGoingRunsWhatDoesNotDependOnIt) {
+  const Outcome outcome = run("strake run --keep-going");
+  EXPECT_EQ(outcome.exit_code, kBadInput);
+  EXPECT_EQ(steps_in(outcome.out)["z evaluate"], "ran");
+  EXPECT_EQ(steps_in(outcome.out)["bad tensor"], "not run");
+}
+
+TEST_F(Failure, AnOutputThatCannotBeWrittenFailsItsStepOnly) {
+  put("out", "a file where a folder is needed\n");
+  pipeline(
+      "models: {z: {sample: {kind: torus, faces: 2000}}}\noutputs: {quads: 'out/{model}.obj'}\n");
+  const Outcome outcome = run("strake run");
+  EXPECT_EQ(outcome.exit_code, kBadInput);
+  EXPECT_NE(outcome.err.find("out/z.obj"), std::string::npos) << outcome.err;
+  fs::remove(file("out"));
+  EXPECT_EQ(must("strake run --until mesh").find("0 steps run"), 0u);
+  EXPECT_TRUE(fs::exists(file("out/z.obj")));
+}
+
+/// A store with results of two seeds.
+class Collection : public PipelineTest {
+ protected:
+  Collection() {
+    pipeline("models: {torus: {sample: {kind: torus, faces: 2000}}}\n");
+    must("strake run -q --set trace.seed=7");
+    must("strake run -q");
+    EXPECT_EQ(entries().size(), 10u);
+  }
+};
+
+TEST_F(Collection, StatusSaysWhatIsReadyAndWhatIsStale) {
+  const std::string ready = must("strake status");
+  EXPECT_EQ(ready.find("stale"), std::string::npos) << ready;
+  EXPECT_NE(ready.find("10 results"), std::string::npos) << ready;
+  const std::string stale = must("strake status --set trace.seed=8 --steps");
+  EXPECT_NE(stale.find("ready    torus smooth: "), std::string::npos) << stale;
+  EXPECT_NE(stale.find("stale    torus trace: seed "), std::string::npos) << stale;
+}
+
+TEST_F(Collection, UnreachableGoes) {
+  const auto before = snapshot();
+  EXPECT_NE(must("strake gc --unreachable --dry-run").find("7 results left"), std::string::npos);
+  EXPECT_EQ(snapshot(), before);
+  EXPECT_NE(must("strake gc --unreachable").find("7 results left"), std::string::npos);
+  EXPECT_EQ(entries().size(), 7u);
+  EXPECT_EQ(must("strake run"), "0 steps run, 7 in the store\n");
+}
+
+TEST_F(Collection, WhatMayBeFoundAgainIsReachable) {
+  fs::remove_all(artifact("torus/import-", "mesh.hdf").parent_path());
+  must("strake gc --unreachable");
+  const auto steps = run_steps();
+  EXPECT_EQ(names(steps, "ran"), "torus import");
+}
+
+TEST_F(Collection, LongUnusedGoes) {
+  must("strake gc --older-than 1h");
+  EXPECT_EQ(entries().size(), 10u);
+  const fs::path lines = artifact("torus/sample-", "sample.ply");
+  for (const auto& each : fs::directory_iterator(lines.parent_path())) {
+    fs::last_write_time(each, fs::last_write_time(each) - std::chrono::hours(3));
+  }
+  must("strake gc --older-than 2h");
+  EXPECT_EQ(entries().size(), 9u);
+  EXPECT_FALSE(fs::exists(lines));
+}
+
+TEST_F(Collection, WhatWasUsedLastStays) {
+  must("strake run -q --set trace.seed=7");
+  must("strake gc --max-size 600kB");
+  const auto left = entries();
+  EXPECT_LT(left.size(), 10u);
+  EXPECT_GT(left.size(), 0u);
+  std::uintmax_t size = 0;
+  for (const std::string& entry : left) {
+    for (const auto& each : fs::directory_iterator(file("store") / entry)) size += each.file_size();
+  }
+  EXPECT_LE(size, 600000u);
+  must("strake gc --max-size 0");
+  EXPECT_EQ(entries().size(), 0u);
+  must_fail(kUsage, "strake gc", "say what may go");
+  must_fail(kUsage, "strake gc --max-size lots", "10GB");
+}
+
+TEST_F(Collection, WhatIsBeingMadeStays) {
+  const std::string entry = entries().front();
+  const EntryLock maker(file("store") / entry);
+  const std::string said = must("strake gc --max-size 0");
+  EXPECT_NE(said.find("kept     " + entry), std::string::npos) << said;
+  EXPECT_EQ(entries(), std::vector<std::string>{entry});
+}
+
+}  // namespace
+}  // namespace strake::pipeline_test

@@ -1,0 +1,316 @@
+#!/usr/bin/env python3
+"""Runs pipelines while everything goes wrong: torture.py SUITE BIN_FOLDER.
+
+Whatever happens, every result that the store claims to have has the bytes of an undisturbed run, no
+process is left over, and the next run completes.
+"""
+
+import os
+import pathlib
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+PIPELINE = """version: 1
+store: {store}
+stages: {{import: {{}}, tensor: {{}}, smooth: {{}}, trace: {{}}, mesh: {{}},
+         evaluate: {{inputs: {{candidate: quads}}, options: {{samples: 1000}}}}}}
+models:
+  torus: {{sample: {{kind: torus, faces: 2000}}}}
+  sphere: {{sample: {{kind: sphere, faces: 1500}}}}
+outputs: {{quads: "out/{{model}}.obj", report: "out/{{model}}.json"}}
+"""
+MARK = f"STRAKE_TORTURE={os.getpid()}"
+SEED = 20041007
+
+
+def check(condition, *what):
+    if not condition:
+        raise AssertionError(" ".join(str(part) for part in what))
+
+
+class Place:
+    """A folder with a pipeline, and its store there or elsewhere."""
+
+    def __init__(self, programs, folder, store=None):
+        self.strake = programs / "strake"
+        self.folder = folder
+        self.store = store or folder / "store"
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / "pipeline.yaml").write_text(PIPELINE.format(store=self.store))
+
+    def start(self, *arguments):
+        name, value = MARK.split("=")
+        return subprocess.Popen([self.strake, *arguments], cwd=self.folder, start_new_session=True,
+                                env={**os.environ, name: value}, stdin=subprocess.DEVNULL,
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+    def call(self, *arguments):
+        """Exit code and all that was said."""
+        process = self.start(*arguments)
+        out, err = process.communicate(timeout=60)
+        return process.returncode, out + err
+
+    def must_run(self, *arguments):
+        code, said = self.call("run", *arguments)
+        check(code == 0, "the run failed:", said)
+        return said
+
+    def entries(self):
+        """Bytes of the artifacts that the store claims to have, by entry and name."""
+        found = {}
+        for manifest in self.store.glob("*/*/manifest.json"):
+            for file in manifest.parent.iterdir():
+                if file.name not in ("manifest.json", "lock") and file.suffix != ".tmp":
+                    found[f"{manifest.parent.relative_to(self.store)}/{file.name}"] = \
+                        file.read_bytes()
+        return found
+
+    def outputs(self):
+        return {file.name: file.read_bytes() for file in (self.folder / "out").iterdir()}
+
+    def half_written(self):
+        return [str(file) for folder in (self.store, self.folder) for file in folder.rglob("*.tmp")]
+
+    def check_whole(self, reference):
+        for name, content in self.entries().items():
+            check(reference.get(name) == content, name, "is not what an undisturbed run makes")
+
+    def check_complete(self, reference, outputs):
+        said = self.must_run()
+        check(self.entries() == reference, "other entries than an undisturbed run makes")
+        check(self.outputs() == outputs, "other outputs than an undisturbed run writes")
+        for file in self.store.glob("*/*/*.hdf"):
+            code, text = self.call("check", str(file))
+            check(code == 0, text)
+        return said
+
+
+def processes():
+    """Ours that still run: number -> command line."""
+    found = {}
+    for folder in pathlib.Path("/proc").iterdir():
+        if not folder.name.isdigit():
+            continue
+        try:
+            if MARK.encode() not in (folder / "environ").read_bytes().split(b"\0"):
+                continue
+            state = (folder / "stat").read_text().rsplit(")", 1)[1].split()[0]
+            if state != "Z":
+                found[int(folder.name)] = (folder / "cmdline").read_bytes().decode().split("\0")
+        except (OSError, IndexError):
+            continue  # it has just ended
+    return found
+
+
+def kind(words):
+    name = os.path.basename(words[0])
+    if name == "strake":
+        return words[1]
+    return "stage" if name.startswith("strake-") else name
+
+
+def check_nothing_left(what):
+    deadline = time.monotonic() + 2
+    while left := processes():
+        check(time.monotonic() < deadline, what, "left behind", left)
+        time.sleep(0.01)
+
+
+def reference_of(programs, folder):
+    place = Place(programs, folder / "reference")
+    place.must_run()
+    entries = place.entries()
+    check(len(entries) == 16, entries.keys())
+    return entries, place.outputs()
+
+
+def kills(programs, folder):
+    """kill -9 at random moments, of the run, Ninja, a step or a stage."""
+    reference, outputs = reference_of(programs, folder)
+    place = Place(programs, folder / "here")
+    choice = random.Random(SEED)
+    counts, interrupted, wanted = {}, 0, 50
+    for _ in range(wanted):
+        run = place.start("run", "--jobs", "2")
+        time.sleep(choice.uniform(0.0, 0.35))
+        running = processes()
+        kinds = [kind(words) for words in running.values()]
+        target = choice.choice(["run", "ninja", "step", "stage", "stage"])
+        victims = [pid for pid, words in running.items() if kind(words) == target]
+        if victims:
+            counts[target] = counts.get(target, 0) + 1
+            victim = choice.choice(sorted(victims))
+            try:
+                os.kill(victim, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+        out, err = run.communicate(timeout=30)
+        check_nothing_left(f"after a kill of {target}")
+        if run.returncode != 0:
+            interrupted += "step" in kinds
+            check(run.returncode == -signal.SIGKILL or "error" in err or "killed" in err, err)
+        place.check_whole(reference)
+        if run.returncode == 0 and len(place.entries()) == len(reference):
+            check(place.entries() == reference, "a run that succeeded is incomplete")
+            shutil.rmtree(place.store)
+    print(f"{wanted} rounds, kills: {counts}, of running steps: {interrupted}")
+    check(interrupted >= wanted // 3, "too few kills hit running steps:", interrupted)
+    check(len(counts) == 4, "not every kind of process was killed:", counts)
+    place.check_complete(reference, outputs)
+    check(not place.half_written(), place.half_written())
+
+
+def interrupts(programs, folder):
+    """Ctrl-C, and SIGTERM to the run alone, at random moments."""
+    reference, outputs = reference_of(programs, folder)
+    choice = random.Random(SEED)
+    stopped, slowest = 0, 0.0
+    for number in range(16):
+        place = Place(programs, folder / f"here{number}")
+        run = place.start("run", "--jobs", "2")
+        time.sleep(choice.uniform(0.02, 0.9))
+        begin = time.monotonic()
+        if number % 2:
+            os.kill(run.pid, signal.SIGTERM)
+        else:
+            os.killpg(run.pid, signal.SIGINT)
+        out, err = run.communicate(timeout=30)
+        slowest = max(slowest, time.monotonic() - begin)
+        check_nothing_left("after an interruption")
+        if run.returncode == 0:
+            continue
+        before_handler = run.returncode in (-signal.SIGINT, -signal.SIGTERM)
+        check(run.returncode == 130 or before_handler, run.returncode, err)
+        stopped += run.returncode == 130
+        check(not place.half_written(), place.half_written())
+        place.check_whole(reference)
+        finished = len(place.entries())
+        if number % 4 < 2:
+            said = place.check_complete(reference, outputs)
+            check(f"{finished} in the store" in said, finished, "were finished, but:", said)
+    print(f"{stopped} of 16 interrupted, the slowest after {slowest:.2f} s")
+    check(stopped >= 10, "too few were interrupted:", stopped)
+    check(slowest < 2, "an interruption took", slowest, "s")
+
+
+def together(programs, folder):
+    """Two and three runs on one store at once, and gc meanwhile."""
+    reference, outputs = reference_of(programs, folder)
+    for count in (2, 3):
+        store = folder / f"shared{count}"
+        places = [Place(programs, folder / f"here{count}-{i}", store) for i in range(count)]
+        runs = [place.start("run") for place in places]
+        ran = 0
+        for run, place in zip(runs, places):
+            out, err = run.communicate(timeout=60)
+            check(run.returncode == 0, err)
+            ran += out.count("  ran  ")
+            check(place.outputs() == outputs, "other outputs")
+        check(ran == len(reference), f"{count} runs made {ran} results where {len(reference)} are")
+        places[0].check_complete(reference, outputs)
+    for number, arguments in enumerate((["--unreachable"], ["--max-size", "0"])):
+        place = Place(programs, folder / f"gc{number}")
+        run = place.start("run")
+        sweeps = 0
+        while run.poll() is None:
+            # Clearing all the time would let nobody get anywhere; once in a while must do no harm.
+            if arguments[0] == "--unreachable" or sweeps < 2:
+                time.sleep(0.3 if sweeps else 0.5)
+                code, said = place.call("gc", *arguments)
+                check(code == 0, said)
+                sweeps += 1
+            time.sleep(0.02)
+        out, err = run.communicate()
+        check(run.returncode == 0, err)
+        check(sweeps > 1, "gc came too late")
+        check(place.outputs() == outputs, "other outputs")
+        place.check_complete(reference, outputs)
+    check_nothing_left("runs at once")
+
+
+def memory(programs, folder):
+    """Steps run one after the other where memory allows only one, and at once where it allows more."""
+    most = {}
+    for limit in ("100MB", "10GB"):
+        place = Place(programs, folder / limit)
+        run = place.start("run", "--jobs", "4", "--memory", limit)
+        while run.poll() is None:
+            stages = sum(kind(words) == "stage" for words in processes().values())
+            most[limit] = max(most.get(limit, 0), stages)
+        check(run.returncode == 0, run.stderr.read())
+    print("stages at once:", most)
+    check(most["100MB"] == 1, most)
+    check(most["10GB"] >= 2, most)
+
+
+def mount(folder, options):
+    folder.mkdir(parents=True, exist_ok=True)
+    subprocess.run(["mount", "-t", "tmpfs", "-o", options, "tmpfs", str(folder)], check=True)
+
+
+def disk_full(programs, folder):
+    """A disk that is too small for the store, by different amounts."""
+    reference, outputs = reference_of(programs, folder)
+    total = sum(len(content) for content in reference.values())
+    for number, share in enumerate((0.02, 0.15, 0.3, 0.45, 0.6, 0.75, 0.9)):
+        disk = folder / f"disk{number}"
+        mount(disk, f"size={int(share * total)}")
+        place = Place(programs, folder / f"here{number}", disk / "store")
+        code, said = place.call("run", "--jobs", "2")
+        check(0 < code <= 5, code, said)
+        check("No space left" in said or "disk full" in said, said)
+        check_nothing_left("a full disk")
+        place.check_whole(reference)
+        subprocess.run(["mount", "-o", "remount,size=64m", str(disk)], check=True)
+        place.check_complete(reference, outputs)
+        check(not place.half_written(), place.half_written())
+
+
+def read_only(programs, folder):
+    """A store on a disk that cannot be written."""
+    reference, outputs = reference_of(programs, folder)
+    disk = folder / "disk"
+    mount(disk, "size=64m")
+    place = Place(programs, folder / "here", disk / "store")
+    place.must_run()
+    subprocess.run(["mount", "-o", "remount,ro", str(disk)], check=True)
+    shutil.rmtree(place.folder / "out")
+    place.check_complete(reference, outputs)
+    code, said = place.call("run", "--set", "trace.seed=7")
+    check(code == 3 and "Read-only file system" in said and "another store" in said, code, said)
+    for arguments in (["status", "--verify"], ["run", "--dry-run", "--set", "trace.seed=7"],
+                      ["gc", "--unreachable"]):
+        code, said = place.call(*arguments)
+        check(code == 0, arguments, said)
+    code, said = place.call("gc", "--max-size", "0")
+    check(code == 3 and "Read-only file system" in said, code, said)
+    check_nothing_left("a read-only store")
+
+
+SUITES = {suite.__name__: suite
+          for suite in (kills, interrupts, together, memory, disk_full, read_only)}
+NEED_MOUNTS = ("disk_full", "read_only")
+
+
+def main():
+    suite, programs = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
+    if suite in NEED_MOUNTS and "--inside" not in sys.argv:
+        # Mounts in a namespace of their own: nobody else sees them, and they end with it.
+        unshare = ["unshare", "-m"] if os.geteuid() == 0 else ["unshare", "-rm"]
+        sys.exit(subprocess.run([*unshare, sys.executable, *sys.argv, "--inside"]).returncode)
+    with tempfile.TemporaryDirectory(prefix="strake-torture-") as folder:
+        try:
+            SUITES[suite](programs, pathlib.Path(folder).resolve())
+        finally:
+            for disk in pathlib.Path(folder).glob("disk*"):
+                subprocess.run(["umount", "-l", str(disk)], check=False)
+    print(f"torture: {suite} survived")
+
+
+if __name__ == "__main__":
+    main()
