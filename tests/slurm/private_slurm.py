@@ -95,6 +95,15 @@ def descendants():
     return found
 
 
+def reap():
+    """Takes note of children that have ended."""
+    try:
+        while os.waitpid(-1, os.WNOHANG) != (0, 0):
+            pass
+    except ChildProcessError:
+        pass
+
+
 def end_all():
     """Kills until nothing is left: what is killed may just have started something."""
     while pids := descendants():
@@ -103,11 +112,7 @@ def end_all():
                 os.kill(pid, signal.SIGKILL)
             except ProcessLookupError:
                 pass
-        try:
-            while os.waitpid(-1, os.WNOHANG) != (0, 0):
-                pass
-        except ChildProcessError:
-            pass
+        reap()
         time.sleep(0.02)
 
 
@@ -136,7 +141,8 @@ def start_all(folder, nodes):
     environment = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "SLURM_CONF": f"{folder}/slurm.conf"}
     start(["munged", "--foreground", "--force", f"--key-file={folder}/munge.key",
            f"--socket={folder}/munge.sock", f"--pid-file={folder}/munged.pid",
-           f"--log-file={folder}/munged.log", f"--seed-file={folder}/munge.seed"], environment, output)
+           f"--log-file={folder}/munged.log", f"--seed-file={folder}/munge.seed"],
+          environment, output)
     deadline = time.monotonic() + START_SECONDS
     while not (folder / "munge.sock").exists() and time.monotonic() < deadline:
         time.sleep(0.02)
@@ -171,7 +177,8 @@ def main():
         start_all(folder, nodes)
         print(f"ready {folder}/slurm.conf", flush=True)
         threading.Thread(target=wait_for_input_to_end, daemon=True).start()
-        ended.wait()
+        while not ended.wait(0.2):
+            reap()
     finally:
         end_all()
 

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """`strake run --engine slurm` on a private Slurm of three nodes: slurm_test.py BIN.
 
-Six models by three variants. One model is broken, one node dies with its jobs; what does not depend on
-them completes, and the same command again makes the rest. In the end all bytes are those of a local
-run. BIN is the folder of the programs.
+Six models by three variants. One model is broken, one node dies with its jobs; what does not depend
+on them completes, and the same command again makes the rest. In the end all bytes are those of a
+local run. BIN is the folder of the programs.
 """
 
 import contextlib
@@ -34,9 +34,10 @@ models:
   saddle: {sample: {kind: saddle, faces: 2000}}
   ellipsoid: {sample: {kind: ellipsoid, faces: 2000}}
   cylinder: {sample: {kind: cylinder, faces: 2000}}
+stages: {import: , tensor: {resources: {parts: 2}}, smooth: , trace: , mesh: , fit: , evaluate: }
 options: {trace: {tolerance: 1%}}
 variants: {seed: {trace: {seed: [1, 2, 3]}}}
-outputs: {quads: "out/{model}-{variant}.obj", report: "out/{model}-{variant}.json"}
+outputs: {fitted: "out/{model}-{variant}.obj", report: "out/{model}-{variant}.json"}
 cluster: {options: [--partition=main, --comment=strake]}
 """
 
@@ -103,7 +104,7 @@ class Step:
         self.environment = dict(pair.split("=", 1) for pair in pairs if "=" in pair)
         status = (process / "status").read_text()
         self.parent = int(re.search(r"^PPid:\s*(\d+)", status, re.MULTILINE)[1])
-        self.id = self.words[-1]
+        self.id = self.words[3]
         self.node = self.environment.get("SLURMD_NODENAME")
 
     @property
@@ -151,7 +152,9 @@ def with_followers(ids, orders):
 
 
 def runs_in(folder):
-    return sorted((folder / ".strake/.runs").iterdir())
+    """Folders of all runs, in the order in which they were made."""
+    runs = (folder / ".strake/.runs").glob("*/run.json")
+    return [run.parent for run in sorted(runs, key=lambda run: run.stat().st_mtime_ns)]
 
 
 def results_in(folder):
@@ -183,7 +186,8 @@ class SlurmTest:
         return call(command, folder, self.environment, expected)
 
     def queue(self, *options):
-        return self.call(["squeue", "--noheader", "--array", *options], self.folder).split("\n")[:-1]
+        command = ["squeue", "--noheader", "--array", *options]
+        return self.call(command, self.folder).split("\n")[:-1]
 
     def pipeline(self, name, broken=False):
         folder = self.folder / name
@@ -206,6 +210,7 @@ class SlurmTest:
         self.reference = self.pipeline("reference")
         self.call([self.strake, "run", "--jobs", "2", "--quiet"], self.reference)
         self.refusals()
+        self.earlier_submissions()
         self.submitted_run()
         self.scripts_by_hand()
 
@@ -221,6 +226,30 @@ class SlurmTest:
                        {"PATH": "/nonexistent"}, 3)
         check("not installed" in without, f"without Slurm it says '{without}'")
         check(not self.queue(), "what was refused is in the queue")
+
+    def earlier_submissions(self):
+        """What waits is cancelled by a submission of the same targets, and by no other."""
+        folder = self.pipeline("targets")
+        submit = [self.strake, "submit", "--until", "import"]
+        with held(self.entry_like(folder, "part", "sample")):
+            self.call([*submit, "part"], folder)
+            wait_for("a step at the lock", lambda: waiting_step(runs_in(folder)[0]))
+            for other in ("torus", "part/seed-1"):
+                answer = self.call([*submit, other], folder)
+                check("cancelled" not in answer, f"for {other}: {answer}")
+            waiting = subprocess.Popen([*submit, "--wait", "part", "torus"], cwd=folder,
+                                       env=self.environment, stdin=subprocess.DEVNULL,
+                                       stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+            wait_for("the jobs of the last one", lambda: len(runs_in(folder)) == 4 and self.queue(
+                "--states=PENDING", "--name=" + self.job_name(runs_in(folder)[3], "import")))
+            waiting.send_signal(signal.SIGINT)
+            answer = waiting.communicate(timeout=PATIENCE_SECONDS)[0]
+            check(waiting.returncode == 130 and "the jobs go on" in answer, answer)
+            check("cancelled" in answer, answer)
+            check(self.queue(), "an interrupted --wait takes its jobs back")
+        wait_for("an empty queue", lambda: not self.queue())
+        answer = self.call([*submit, "part", "torus"], folder)
+        check(answer.startswith("0 steps"), f"the jobs did not go on: {answer}")
 
     def submitted_run(self):
         folder = self.pipeline("cluster", broken=True)
@@ -281,6 +310,11 @@ class SlurmTest:
         self.call(["scontrol", "update", f"NodeName={step.node}", "State=DOWN", "Reason=killed"],
                   self.folder)
 
+    @staticmethod
+    def job_name(run, rule):
+        script = next((run / "slurm").glob(f"*-{rule}.sh"), None)
+        return re.search(r'--job-name="(.*)"', script.read_text())[1] if script else "none"
+
     def scripts_by_hand(self):
         folder = self.pipeline("by hand")
         answer = call([self.strake, "submit", "--script-only", "-o", "job scripts", "part",
@@ -298,7 +332,7 @@ class SlurmTest:
         wait_for("an empty queue", lambda: not self.start_requeued())
         missing = sorted(orders_of(run).keys() - outcomes_of(run).keys())
         check(not missing, f"not run: {missing}")
-        check_equal_results(folder, self.reference, "part|torus-seed-2")
+        check_equal_results(folder, self.reference, r"\.strake/part/|out/(part|torus-seed-2)")
 
     def start_requeued(self, but=None):
         """Has tasks that were put back start soon; Slurm lets them wait two minutes. A node refuses
