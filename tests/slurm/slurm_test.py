@@ -317,7 +317,7 @@ class SlurmTest:
 
     def scripts_by_hand(self):
         folder = self.pipeline("by hand")
-        answer = call([self.strake, "submit", "--script-only", "-o", "job scripts", "part",
+        answer = call([self.strake, "submit", "--script-only", "-o", "job scripts", "saddle/seed-1",
                        "torus/seed-2"], folder, {"PATH": "/nonexistent"})
         submit = folder / "job scripts/submit.sh"
         check(str(submit) in answer, answer)
@@ -332,7 +332,7 @@ class SlurmTest:
         wait_for("an empty queue", lambda: not self.start_requeued())
         missing = sorted(orders_of(run).keys() - outcomes_of(run).keys())
         check(not missing, f"not run: {missing}")
-        check_equal_results(folder, self.reference, r"\.strake/part/|out/(part|torus-seed-2)")
+        check_equal_results(folder, self.reference, r"out/(saddle-seed-1|torus-seed-2)")
 
     def start_requeued(self, but=None):
         """Has tasks that were put back start soon; Slurm lets them wait two minutes. A node refuses
