@@ -63,7 +63,9 @@ class StepRun {
     StepOutcome outcome;
     try {
       outcome = make();
-      for (const std::string& file : order_.deliver_to) deliver(outcome.file, file);
+      if (outcome.exit_code == 0) {
+        for (const std::string& file : order_.deliver_to) deliver(outcome.file, file);
+      }
     } catch (const DamagedInput& error) {
       outcome.kind = StepOutcome::Kind::damaged;
       outcome.message = error.what();

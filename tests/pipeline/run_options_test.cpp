@@ -143,7 +143,9 @@ class Failure : public PipelineTest {
  protected:
   Failure() {
     put("bad.obj", "nothing of use\n");
-    pipeline("models: {z: {sample: {kind: torus, faces: 2000}}, bad: bad.obj}\n");
+    pipeline(
+        "models: {z: {sample: {kind: torus, faces: 2000}}, bad: bad.obj}\n"
+        "outputs: {mesh: '{model}.hdf'}\n");
   }
 };
 

@@ -71,10 +71,12 @@ class Place:
         return found
 
     def outputs(self):
-        return {file.name: file.read_bytes() for file in (self.folder / "out").iterdir()}
+        # A kill while an output is copied leaves a hidden file beside it.
+        return {file.name: file.read_bytes() for file in (self.folder / "out").iterdir()
+                if not file.name.startswith(".")}
 
     def half_written(self):
-        return [str(file) for folder in (self.store, self.folder) for file in folder.rglob("*.tmp")]
+        return [str(file) for file in self.store.glob("[!.]*/**/*.tmp")]
 
     def check_whole(self, reference):
         for name, content in self.entries().items():
@@ -188,6 +190,7 @@ def interrupts(programs, folder):
         check(run.returncode == 130 or before_handler, run.returncode, err)
         stopped += run.returncode == 130
         check(not place.half_written(), place.half_written())
+        check(not [*place.folder.glob("out/.*")], "half an output")
         place.check_whole(reference)
         finished = len(place.entries())
         if number % 4 < 2:
