@@ -66,8 +66,7 @@ void ConsoleObserver::report(std::string_view phase, double fraction) {
 
 void ConsoleObserver::show_progress(double share, bool new_phase) {
   if (format_ == LogFormat::json) {
-    print_event(
-        {{"event", "progress"}, {"label", label_}, {"phase", phase_}, {"fraction", share}});
+    print_event({{"event", "progress"}, {"label", label_}, {"phase", phase_}, {"fraction", share}});
   } else if (terminal_) {
     constexpr int kWidth = 30;
     const int full = static_cast<int>(share * kWidth);
