@@ -1,3 +1,5 @@
+#include <CLI/App.hpp>
+
 #include "common/core/error.h"
 #include "strake/commands.h"
 

@@ -1,13 +1,17 @@
 #pragma once
 
-#include <CLI/App.hpp>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "common/stage/console.h"
 #include "common/stage/report_text.h"
 #include "common/stage/stage.h"
+
+namespace CLI {
+class App;  // including it costs every file some seconds
+}
 
 /// What every program of strake shares: command line, threads, signals, errors, exit codes.
 namespace strake {

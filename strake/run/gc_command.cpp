@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -143,7 +144,7 @@ int GcCommand::run() const {
 void add_gc_command(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand("gc", "Remove results from the store.");
   const auto gc = std::make_shared<GcCommand>();
-  gc->pipeline.add_to(*command);
+  gc->pipeline.add_file_to(*command);
   command->add_flag("--unreachable", gc->unreachable,
                     "What the pipeline file, as it is now, does not need.");
   command->add_option("--older-than", gc->older_than, "What was not used for so long.")

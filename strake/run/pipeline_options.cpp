@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
@@ -16,14 +17,18 @@ namespace fs = std::filesystem;
 void PipelineOptions::add_to(CLI::App& app) {
   app.add_option("targets", targets, "MODEL or MODEL/VARIANT; default: everything")
       ->type_name("TARGET");
-  app.add_option("-f,--file", file, "Pipeline file.")->type_name("FILE")->capture_default_str();
-  app.add_option("--store", store, "Folder of the results, instead of the one in the file.")
-      ->type_name("FOLDER");
+  add_file_to(app);
   app.add_option("--until", until, "Last stage of interest.")->type_name("STAGE");
   app.add_option("--set", settings, "An option for this time only: trace.seed=7.")
       ->type_name("STAGE.OPTION=VALUE")
       ->take_all()
       ->allow_extra_args(false);
+}
+
+void PipelineOptions::add_file_to(CLI::App& app) {
+  app.add_option("-f,--file", file, "Pipeline file.")->type_name("FILE")->capture_default_str();
+  app.add_option("--store", store, "Folder of the results, instead of the one in the file.")
+      ->type_name("FOLDER");
 }
 
 Description PipelineOptions::read() const {

@@ -1,11 +1,14 @@
 #pragma once
 
-#include <CLI/App.hpp>
 #include <string>
 #include <vector>
 
 #include "strake/run/description.h"
 #include "strake/run/plan.h"
+
+namespace CLI {
+class App;
+}
 
 namespace strake {
 
@@ -18,6 +21,8 @@ struct PipelineOptions {
   std::vector<std::string> targets;
 
   void add_to(CLI::App& app);
+  /// The file and the store only: for commands about all of it.
+  void add_file_to(CLI::App& app);
   /// Reads the file; the store is the one named here, if one is.
   [[nodiscard]] Description read() const;
   [[nodiscard]] Selection selection(const Description& description) const;

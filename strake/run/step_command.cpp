@@ -1,3 +1,4 @@
+#include <CLI/App.hpp>
 #include <cstdint>
 #include <memory>
 #include <string>

@@ -252,6 +252,7 @@ TEST_F(Collection, WhatWasUsedLastStays) {
   must("strake gc --max-size 0");
   EXPECT_EQ(entries().size(), 0u);
   must_fail(kUsage, "strake gc", "say what may go");
+  must_fail(kUsage, "strake gc --unreachable torus", "torus");  // or all other models would go
   must_fail(kUsage, "strake gc --max-size lots", "10GB");
 }
 
