@@ -31,6 +31,13 @@ void CrossingSeeds::note(const TraceDomain& domain, const LineHead& head, double
   measures_.push_back(measure_);
 }
 
+void CrossingSeeds::shorten(std::size_t count) {
+  if (count >= seeds_.size()) return;
+  seeds_.resize(count);
+  measures_.resize(count);
+  measure_ = measures_.empty() ? 0 : measures_.back();
+}
+
 void CrossingSeeds::spawn(bool closed, std::vector<Seed>& spawned) const {
   if (measures_.empty()) return;
   const double total = measures_.back();

@@ -18,6 +18,9 @@ class CrossingSeeds {
   /// is closed.
   void spawn(bool closed, std::vector<Seed>& spawned) const;
 
+  /// Forgets all but the first `count` places.
+  void shorten(std::size_t count);
+
   /// All places, one per step.
   [[nodiscard]] const std::vector<Seed>& all() const { return seeds_; }
 

@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kStepShare = 0.25;      ///< integration step as a share of the line distance
 constexpr double kOwnSkip = 2.0;         ///< stop distances along itself that a line does not see
+constexpr double kWayOut = 1.2;          ///< stop distances at which a line is out of narrows
+constexpr double kLongestNarrows = 30;   ///< line distances that a line may run in narrows
 constexpr int kMaxSteps = 200000;        ///< hard bound on one half line
 constexpr std::size_t kStepsPerGap = 4;  ///< between places where a finished line is judged
 
@@ -91,9 +93,29 @@ void LineTracer::cover(const LineHead& head, const LocalSpacing& spacing) {
                  settings_.cover_fraction * spacing.to_neighbours);
 }
 
+/// Whether a line that is too close to another one may get out of these narrows again.
+bool LineTracer::may_go_on(const LineHead& head, const ProximityHit& hit,
+                           const LocalSpacing& spacing, double narrows_arc) const {
+  return hit.line != head.line &&
+         hit.distance >= settings_.narrow_fraction * spacing.to_neighbours &&
+         head.arc - narrows_arc <= kLongestNarrows * spacing.to_neighbours;
+}
+
+/// Ends a half line where its narrows begin.
+void LineTracer::turn_back(const Narrows& narrows, LineHead& head, HalfLine& half) {
+  // One crossing may have been undone since.
+  if (half.points.size() > narrows.points) {
+    walker_.take_back(head, half.points.size() - narrows.points, half);
+  }
+  half.crossings.shorten(narrows.places);
+  half.stopped_by = narrows.stopped_by;
+  half.end = LineEnd::proximity;
+}
+
 void LineTracer::trace_half(LineHead head, bool may_close, double stop_fraction, HalfLine& half) {
   half.end = LineEnd::step_limit;
   int standing = 0;
+  std::optional<Narrows> narrows;
   const auto closes = [&](double least_cosine) {
     return may_close && close_line(domain_, proximity_, walker_, head, least_cosine, half);
   };
@@ -104,11 +126,15 @@ void LineTracer::trace_half(LineHead head, bool may_close, double stop_fraction,
     if (is_away && closes(kCloseCosine)) return;
     if (hit.conflict && head.arc > 0) {
       if ((is_away || hit.line == head.line) && closes(kCloseCosineLast)) return;
-      half.stopped_by = hit.line;
-      half.end = LineEnd::proximity;
-      return;
+      if (!narrows) narrows = {head.arc, half.points.size(), half.crossings.all().size(), hit.line};
+      if (!may_go_on(head, hit, spacing, narrows->arc)) {
+        turn_back(*narrows, head, half);
+        return;
+      }
+    } else if (narrows && !look_around(head, kWayOut * stop_fraction, spacing).conflict) {
+      narrows.reset();
     }
-    cover(head, spacing);
+    if (!narrows) cover(head, spacing);
     const double length = kStepShare * std::min(spacing.to_neighbours, spacing.along);
     const Vec2 direction = runge_kutta(domain_, head, length);
     if (head.context.reliable) {
@@ -193,7 +219,7 @@ std::optional<LineTracer::Halves> LineTracer::trace_ring(const Seed& seed, Index
   proximity_.shrink(segments_before);
   const bool is_alone = arc.forward.stopped_by == line && arc.backward.stopped_by == line;
   if (gap < 2 * settings_.gap_fraction && !is_alone) return std::nullopt;
-  const double fraction = std::min(settings_.ring_fraction, settings_.stop_fraction);
+  const double fraction = std::min(settings_.narrow_fraction, settings_.stop_fraction);
   auto ring = trace_halves(centred(domain_, seed, proximity_), line, fraction);
   // A line that only meets itself is a ring all but closed, or a spiral, as on a knotted tube: that
   // must not wind on more closely.

@@ -23,12 +23,12 @@ struct TracedLine {
 };
 
 struct TracerSettings {
-  double stop_fraction = 0.5;   ///< of the wanted distance, below which a line stops
-  double seed_fraction = 0.8;   ///< of the wanted distance, below which a seed is refused
-  double gap_fraction = 0.95;   ///< likewise, for seeds that fill gaps
-  double cover_fraction = 0.9;  ///< of the wanted distance, within which a point counts as covered
-  double ring_fraction = 0.3;   ///< of the wanted distance, down to which a line between closed
-                                ///< ones may go on where that closes it
+  double stop_fraction = 0.5;    ///< of the wanted distance, below which a line stops
+  double seed_fraction = 0.8;    ///< of the wanted distance, below which a seed is refused
+  double gap_fraction = 0.95;    ///< likewise, for seeds that fill gaps
+  double cover_fraction = 0.9;   ///< of the wanted distance, within which a point counts as covered
+  double narrow_fraction = 0.3;  ///< of the wanted distance, down to which a line may go on where
+                                 ///< it gets out of such narrows, or closes, behind them
 };
 
 /// Traces lines one by one and keeps what later lines must respect ([MK04] sections 3 and 4.2).
@@ -58,9 +58,20 @@ class LineTracer {
     LineFamily family = LineFamily::minimum;
   };
 
+  /// Where a half line first came too close to another line, and what it had recorded by then.
+  struct Narrows {
+    double arc = 0;
+    std::size_t points = 0;
+    std::size_t places = 0;  ///< of seeds for lines that cross it
+    Index stopped_by = kNone;
+  };
+
   bool fits(const LineHead& head, double fraction);
   ProximityHit look_around(const LineHead& head, double fraction, const LocalSpacing& spacing);
   void cover(const LineHead& head, const LocalSpacing& spacing);
+  [[nodiscard]] bool may_go_on(const LineHead& head, const ProximityHit& hit,
+                               const LocalSpacing& spacing, double narrows_arc) const;
+  void turn_back(const Narrows& narrows, LineHead& head, HalfLine& half);
   void trace_half(LineHead head, bool may_close, double stop_fraction, HalfLine& half);
   std::optional<Halves> trace_halves(const Seed& seed, Index line, double stop_fraction);
   bool is_arc_among_rings(const Halves& halves, Index line) const;

@@ -175,5 +175,41 @@ TEST_F(LinesOnAPlane, CloseWhereTheFieldGoesAround) {
   }
 }
 
+/// Lines y = c w(x) of a strip that narrows to a share of its width at x = 0: a line a wanted
+/// distance beside the middle one goes through where the narrows are wide enough, and stops before
+/// them where they are not.
+TEST_F(LinesOnAPlane, PassNarrowsWhereTheyGetOutAgain) {
+  const TracerSettings settings;
+  for (const double narrowest : {0.42, 0.2}) {
+    SCOPED_TRACE(narrowest);
+    const double depth = 1 - narrowest;
+    const auto width = [&](double x) { return 1 - depth * std::exp(-20 * x * x); };
+    field_ = field_along(mesh_, [&](const Vec3& p) {
+      const double slope = 40 * p.x() * depth * std::exp(-20 * p.x() * p.x());
+      return Vec3(1, p.y() * slope / width(p.x()), 0);
+    });
+    ASSERT_LT(narrowest, settings.stop_fraction);
+    LineTracer tracer(domain_, barriers_, settings);
+    std::vector<Seed> spawned;
+    TracedLine middle;
+    ASSERT_TRUE(tracer.trace(seed_at(-0.9, 0, Vec3::UnitX()), 0, middle, spawned));
+    TracedLine line;
+    ASSERT_TRUE(tracer.trace(seed_at(-0.9, kSpacing, Vec3::UnitX()), 1, line, spawned));
+    EXPECT_EQ(line.start_reason, LineEnd::boundary);
+    const double end = line_point_position(mesh_, line.points.back()).x();
+    if (narrowest > settings.narrow_fraction) {
+      EXPECT_EQ(line.end_reason, LineEnd::boundary);
+      EXPECT_NEAR(end, kPlaneHalfSize, 1e-12);
+    } else {
+      EXPECT_EQ(line.end_reason, LineEnd::proximity);
+      EXPECT_LT(end, 0);
+      // It ends at the last edge before the place: an edge and a step of leeway.
+      const double leeway = 2 * support::mean_edge_length(mesh_) + kSpacing / 4;
+      EXPECT_GT(width(end), settings.stop_fraction - 0.05);
+      EXPECT_LT(width(end + leeway), settings.stop_fraction + 0.05);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace strake
