@@ -16,6 +16,9 @@ using Complex = std::complex<double>;
 
 constexpr double kFeatureWeight = 100;  ///< against Dirichlet weights of order one
 constexpr double kBoundaryWeight = 5;  ///< scan boundaries are ragged: follow, but not at any price
+constexpr double kLossAngle = 10 * M_PI / 180;  ///< of the loss of Geman and McClure
+constexpr int kReweightings = 6;
+constexpr double kRoughTolerance = 1e-4;  ///< of solves that only give weights
 
 /// Half the cotangent of the angle opposite to half-edge h, kept within bounds that slivers would
 /// leave: the weight of the edge in the Dirichlet energy, as far as this face is concerned.
@@ -29,26 +32,30 @@ double dirichlet_weight(const TriMesh& mesh, Index h) {
 
 /// The linear system whose solution is the cross of every wedge, as cross_power in its own frame.
 struct CrossSystem {
-  HermitianMatrix matrix;
-  std::vector<Complex> right;
+  HermitianMatrix matrix;          ///< without the hold to principal directions
+  std::vector<Complex> right;      ///< likewise
+  std::vector<Complex> principal;  ///< [W] what is held to
+  std::vector<double> hold;        ///< [W] how strongly, where the loss is quadratic
 };
 
 CrossSystem cross_system(const TriMesh& mesh, const WedgeGraph& graph,
                          const std::vector<double>& areas, double stiffness,
-                         const PrincipalField& field, std::vector<Complex>& principal) {
+                         const PrincipalField& field) {
   const auto n = static_cast<std::size_t>(graph.size());
   std::vector<TangentFrame> frames(n);
-  tbb::parallel_for(Index{0}, graph.size(), [&](Index w) {
-    frames[w] = tangent_frame(field.normal[w]);
-    principal[w] = cross_power(frames[w].tangent_from_world(field.t_min[w]));
-  });
   CrossSystem system = {{graph.offsets, graph.neighbours,
                          std::vector<Complex>(graph.neighbours.size()), std::vector<double>(n)},
-                        std::vector<Complex>(n)};
+                        std::vector<Complex>(n),
+                        std::vector<Complex>(n),
+                        std::vector<double>(n)};
   tbb::parallel_for(Index{0}, graph.size(), [&](Index w) {
-    const double bend = (field.k_max[w] - field.k_min[w]) * field.wedge_confidence[w];
-    double held = stiffness * bend * bend * areas[w];  // to a direction
-    Complex target = held * principal[w];
+    frames[w] = tangent_frame(field.normal[w]);
+    system.principal[w] = cross_power(frames[w].tangent_from_world(field.t_min[w]));
+    const double confidence = field.wedge_confidence[w];
+    system.hold[w] = stiffness / mesh.diagonal * confidence * confidence *
+                     std::abs(field.k_max[w] - field.k_min[w]) * areas[w];
+  });
+  tbb::parallel_for(Index{0}, graph.size(), [&](Index w) {
     double diagonal = 0;
     for (Index at = graph.offsets[w]; at < graph.offsets[w + 1]; ++at) {
       const Index h = graph.halfedges[at];
@@ -59,8 +66,8 @@ CrossSystem cross_system(const TriMesh& mesh, const WedgeGraph& graph,
       double weight = dirichlet_weight(mesh, h);
       if (mesh.is_barrier(h)) {
         const double hold = mesh.is_boundary(h) ? kBoundaryWeight : kFeatureWeight;
-        held += hold;
-        target += hold * here;
+        diagonal += hold;
+        system.right[w] += hold * here;
       } else {
         weight += dirichlet_weight(mesh, mesh.twin[h]);
       }
@@ -69,10 +76,26 @@ CrossSystem cross_system(const TriMesh& mesh, const WedgeGraph& graph,
     }
     // A trace of weight everywhere keeps components without any reliable direction solvable.
     const double trace = 1e-9 * std::max(diagonal, 1e-30);
-    system.matrix.diagonal[w] = diagonal + held + trace;
-    system.right[w] = target + trace * principal[w];
+    system.matrix.diagonal[w] = diagonal + trace;
+    system.right[w] += trace * system.principal[w];
   });
   return system;
+}
+
+/// Solves for the crosses with each hold weakened as the loss wants it at the angle between
+/// the last solution and the principal direction; not at all where `solution` is that direction.
+Index solve_reweighted(const CrossSystem& system, const SolverOptions& options,
+                       std::vector<Complex>& solution) {
+  HermitianMatrix matrix = system.matrix;
+  std::vector<Complex> right = system.right;
+  tbb::parallel_for(Index{0}, static_cast<Index>(solution.size()), [&](Index w) {
+    const double angle = std::arg(solution[w] * std::conj(system.principal[w])) / 4;
+    const double share = 1 / (1 + angle * angle / (kLossAngle * kLossAngle));
+    const double hold = system.hold[w] * share * share;
+    matrix.diagonal[w] += hold;
+    right[w] += hold * system.principal[w];
+  });
+  return solve(matrix, right, options, solution);
 }
 
 }  // namespace
@@ -80,9 +103,14 @@ CrossSystem cross_system(const TriMesh& mesh, const WedgeGraph& graph,
 Index extend_cross_field(const TriMesh& mesh, const WedgeGraph& graph,
                          const std::vector<double>& areas, double stiffness,
                          PrincipalField& field) {
-  std::vector<Complex> solution(static_cast<std::size_t>(graph.size()));
-  const CrossSystem system = cross_system(mesh, graph, areas, stiffness, field, solution);
-  const Index iterations = solve(system.matrix, system.right, {}, solution);
+  const CrossSystem system = cross_system(mesh, graph, areas, stiffness, field);
+  std::vector<Complex> solution = system.principal;
+  Index iterations = 0;
+  for (int round = 0; round <= kReweightings; ++round) {
+    SolverOptions options;
+    if (round < kReweightings) options.tolerance = kRoughTolerance;
+    iterations += solve_reweighted(system, options, solution);
+  }
 
   field.cross.resize(solution.size());
   tbb::parallel_for(Index{0}, graph.size(), [&](Index w) {

@@ -88,6 +88,16 @@ std::vector<Tensor> smoothing_step(const WedgeGraph& graph, const PrincipalField
   return next;
 }
 
+/// Makes `cross` the arm nearest to t_min.
+void name_arms(PrincipalField& field) {
+  tbb::parallel_for(Index{0}, static_cast<Index>(field.cross.size()), [&](Index w) {
+    const TangentFrame frame = tangent_frame(field.normal[w]);
+    const Vec2 arm = cross_arm(cross_power(frame.tangent_from_world(field.cross[w])),
+                               frame.tangent_from_world(field.t_min[w]));
+    field.cross[w] = frame.world_from_tangent(arm).normalized();
+  });
+}
+
 }  // namespace
 
 SmoothResult smooth_tensors(const TriMesh& mesh, const TensorField& tensor,
@@ -108,6 +118,13 @@ SmoothResult smooth_tensors(const TriMesh& mesh, const TensorField& tensor,
   for (const double c : field.face_confidence) before += c;
 
   const WedgeGraph graph = wedge_graph(mesh);
+  if (options.extension == "cross") {
+    // From the tensors as estimated: the solve evens out what is doubtful, and only that.
+    observer.report("extending the cross field", 0);
+    const Index iterations =
+        extend_cross_field(mesh, graph, wedge_areas(mesh), options.field_stiffness, field);
+    result.report.set("smooth.solver_iterations", static_cast<std::int64_t>(iterations));
+  }
   std::vector<Tensor> tensors = tensor.tensor;
   for (std::int64_t step = 0; step < options.iterations; ++step) {
     tensors = smoothing_step(graph, field, tensors);
@@ -124,10 +141,7 @@ SmoothResult smooth_tensors(const TriMesh& mesh, const TensorField& tensor,
   result.report.set("smooth.mean_confidence_before", before / faces);
   result.report.set("smooth.mean_confidence_after", after / faces);
   if (options.extension == "cross") {
-    observer.report("extending the cross field", 0);
-    const Index iterations =
-        extend_cross_field(mesh, graph, wedge_areas(mesh), options.field_stiffness, field);
-    result.report.set("smooth.solver_iterations", static_cast<std::int64_t>(iterations));
+    name_arms(field);
   } else {
     field.cross = field.t_min;
   }

@@ -11,7 +11,7 @@ namespace strake {
 struct SmoothOptions {
   std::int64_t iterations = 5;      ///< of the operator of [MK04] section 4.1
   std::string extension = "cross";  ///< "cross": smooth cross field; "paper": tensors only
-  double field_stiffness = 20;      ///< how strongly `cross` holds to the curvature directions
+  double field_stiffness = 2000;    ///< how strongly `cross` holds to the curvature directions
 
   OptionList declare();
 };
