@@ -1,6 +1,7 @@
 #include "stages/mesh/mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "common/core/error.h"
@@ -8,6 +9,7 @@
 #include "common/geometry/topology/topology.h"
 #include "stages/mesh/halfedge_check.h"
 #include "stages/mesh/overlay.h"
+#include "stages/mesh/pairing.h"
 #include "stages/mesh/partition.h"
 #include "stages/mesh/polygon_graph.h"
 #include "stages/mesh/simplify.h"
@@ -28,6 +30,23 @@ double local_size(const TriMesh& mesh, const LineSet& lines, const SurfaceNode& 
     size += node.barycentric[i] * std::min(lines.spacing_along_min[w], lines.spacing_along_max[w]);
   }
   return size;
+}
+
+/// The wanted length of an edge: the distance between the lines that cross it.
+double wanted_length(const TriMesh& mesh, const LineSet& lines, const PolygonGraph& graph,
+                     Index dart) {
+  const SurfaceNode& node = graph.node(graph.graph().from(dart));
+  double along_min = 0;
+  double along_max = 0;
+  for (int i = 0; i < 3; ++i) {
+    const Index w = mesh.face_wedges[node.face][i];
+    along_min += node.barycentric[i] * lines.spacing_along_min[w];
+    along_max += node.barycentric[i] * lines.spacing_along_max[w];
+  }
+  const Index line = graph.line(dart);
+  if (line != kNone && lines.family[line] == LineFamily::minimum) return along_min;
+  if (line != kNone && lines.family[line] == LineFamily::maximum) return along_max;
+  return std::sqrt(along_min * along_max);
 }
 
 /// Adds the components that have too few cells to be a surface to `starved`; whether there are any.
@@ -150,6 +169,7 @@ struct Cells {
   PolygonGraph graph;
   SimplifyCounts simplified;
   PartitionCounts divided;
+  PairingCounts paired;
   Index cut_pieces = 0;
 };
 
@@ -161,12 +181,16 @@ Cells form_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions& o
   observer.report("forming cells", 0.4);
   const Index cuts = reduce_to_lines(overlay);
   observer.report("simplifying cells", 0.6);
-  Cells cells{PolygonGraph(mesh, overlay), {}, {}, cuts};
+  Cells cells{PolygonGraph(mesh, overlay), {}, {}, {}, cuts};
   cells.simplified = simplify(
       cells.graph, [&](const SurfaceNode& node) { return local_size(mesh, lines, node); },
       kShortestEdge);
   observer.report("dividing cells", 0.8);
   cells.divided = partition(cells.graph, static_cast<Index>(options.max_sides));
+  observer.report("pairing odd faces", 0.9);
+  cells.paired = pair_odd_faces(
+      cells.graph, [&](Index dart) { return wanted_length(mesh, lines, cells.graph, dart); },
+      options.odd_price);
   return cells;
 }
 
@@ -198,6 +222,10 @@ MeshResult mesh_lines(const TriMesh& mesh, const LineSet& lines, const MeshOptio
   report.set("mesh.diagonals", static_cast<std::int64_t>(cells.divided.diagonals));
   report.set("mesh.straightened_nodes", static_cast<std::int64_t>(cells.divided.moved_nodes));
   report.set("mesh.centred_faces", static_cast<std::int64_t>(cells.divided.centred_faces));
+  report.set("mesh.divided_patches", static_cast<std::int64_t>(cells.paired.divided_patches));
+  report.set("mesh.split_strips", static_cast<std::int64_t>(cells.paired.split_strips));
+  report.set("mesh.collapsed_strips", static_cast<std::int64_t>(cells.paired.collapsed_strips));
+  report.set("mesh.turned_edges", static_cast<std::int64_t>(cells.paired.turned_edges));
   check_result(mesh, result.quads.mesh, static_cast<Index>(options.max_sides), report);
   return result;
 }

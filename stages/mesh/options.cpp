@@ -10,6 +10,13 @@ OptionList MeshOptions::declare() {
        .help = "Largest number of corners of a face; larger cells are divided.",
        .min = 4,
        .max = 64},
+      {.name = "odd-price",
+       .target = &odd_price,
+       .unit = "",
+       .help = "Price of a face that is no quad: the higher, the farther lines are prolonged or "
+               "taken back to make quads; 0 leaves faces as the lines made them.",
+       .min = 0,
+       .max = 1000},
   };
 }
 

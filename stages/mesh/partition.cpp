@@ -6,44 +6,17 @@
 #include <limits>
 
 #include "common/geometry/frames.h"
+#include "stages/mesh/cell_shape.h"
 
 namespace strake {
 namespace {
 
-constexpr double kRightAngle = M_PI / 2;
 /// Reflex corners up to this angle are moved into line; larger ones divide their face.
 constexpr double kMovableAngle = 200 * M_PI / 180;
 /// How far inside the straight line a moved corner comes to lie, as a share of its edges.
 constexpr double kBulge = 1e-3;
 constexpr int kMoveRounds = 8;
-/// Parts thinner than this, as area over squared perimeter, are as good as degenerate.
-constexpr double kThinnest = 1e-4;
 constexpr std::size_t kLargestScored = 24;
-
-using Polygon = std::vector<Vec3>;
-
-Vec3 newell(const Polygon& p) {
-  Vec3 n = Vec3::Zero();
-  for (std::size_t i = 0; i < p.size(); ++i) n += (p[i] - p[0]).cross(p[(i + 1) % p.size()] - p[0]);
-  return 0.5 * n;
-}
-
-/// Interior angle at corner i, in [0, 2 pi), seen along the unit normal n.
-double interior_angle(const Polygon& p, std::size_t i, const Vec3& n) {
-  const std::size_t size = p.size();
-  const Vec3 a = p[(i + 1) % size] - p[i];
-  const Vec3 b = p[(i + size - 1) % size] - p[i];
-  const double angle = std::atan2(a.cross(b).dot(n), a.dot(b));
-  return angle < 0 ? angle + 2 * M_PI : angle;
-}
-
-/// The measure of concavity that counts: a corner that turns against the polygon's own normal.
-bool is_reflex(const Polygon& p, std::size_t i, const Vec3& n) {
-  const std::size_t size = p.size();
-  const Vec3 a = p[(i + 1) % size] - p[i];
-  const Vec3 b = p[(i + size - 1) % size] - p[i];
-  return a.cross(b).dot(n) < -1e-10 * a.norm() * b.norm();
-}
 
 double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
   return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
@@ -88,24 +61,6 @@ class FlatPolygon {
   std::vector<Vec2> points_;
 };
 
-/// Penalty of a part: squared deviation of its corners from right angles, the worse the thinner;
-/// infinite where it is turned over or has no area.
-double penalty(const Polygon& p, const Vec3& surface_normal) {
-  const Vec3 normal = newell(p);
-  const double area = normal.norm();
-  double around = 0;
-  for (std::size_t i = 0; i < p.size(); ++i) around += (p[(i + 1) % p.size()] - p[i]).norm();
-  if (!(area > kThinnest * around * around)) return std::numeric_limits<double>::infinity();
-  if (normal.dot(surface_normal) <= 0) return std::numeric_limits<double>::infinity();
-  double sum = 0;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    const double off = interior_angle(p, i, normal / area) - kRightAngle;
-    sum += off * off;
-    if (is_reflex(p, i, normal / area)) sum += 4;
-  }
-  return sum / static_cast<double>(p.size()) + (p.size() == 4 ? 0.0 : 0.2);
-}
-
 class Partitioner {
  public:
   Partitioner(PolygonGraph& graph, Index max_sides) : graph_(graph), max_sides_(max_sides) {}
@@ -121,15 +76,9 @@ class Partitioner {
   }
 
  private:
-  Polygon polygon(const std::vector<Index>& cell) const {
-    Polygon p;
-    for (const Index d : cell) p.push_back(graph_.position(graph_.graph().from(d)));
-    return p;
-  }
-
   bool has_reflex(const std::vector<Index>& cell, double above) const {
-    const Polygon p = polygon(cell);
-    const Vec3 n = newell(p).normalized();
+    const Polygon p = corner_positions(graph_, cell);
+    const Vec3 n = vector_area(p).normalized();
     for (std::size_t i = 0; i < p.size(); ++i) {
       if (is_reflex(p, i, n) && interior_angle(p, i, n) > above) return true;
     }
@@ -172,8 +121,8 @@ class Partitioner {
   /// there is one, takes part in it.
   Index best_diagonal(const std::vector<Index>& cell) {
     const DartGraph& g = graph_.graph();
-    const Polygon p = polygon(cell);
-    const Vec3 n = newell(p).normalized();
+    const Polygon p = corner_positions(graph_, cell);
+    const Vec3 n = vector_area(p).normalized();
     std::vector<char> reflex(p.size(), 0);
     bool any_reflex = false;
     for (std::size_t i = 0; i < p.size(); ++i) {
@@ -196,7 +145,7 @@ class Partitioner {
                       p.begin() + static_cast<std::ptrdiff_t>(j) + 1);
           Polygon two(p.begin() + static_cast<std::ptrdiff_t>(j), p.end());
           two.insert(two.end(), p.begin(), p.begin() + static_cast<std::ptrdiff_t>(i) + 1);
-          double score = penalty(one, n) + penalty(two, n);
+          double score = shape_penalty(one, n) + shape_penalty(two, n);
           if (relaxed && !(score < std::numeric_limits<double>::infinity())) {
             // Any division is better than none where a face has too many sides.
             score = 1e6 + (p[i] - p[j]).norm();
@@ -220,7 +169,8 @@ class Partitioner {
   /// Divides a cell from a new node in its middle, where all its diagonals are edges already.
   void fan_out(const std::vector<Index>& cell) {
     Vec3 middle = Vec3::Zero();
-    for (const Vec3& v : polygon(cell)) middle += v / static_cast<double>(cell.size());
+    for (const Vec3& v : corner_positions(graph_, cell))
+      middle += v / static_cast<double>(cell.size());
     const Index spoke = graph_.connect(cell[0], cell[2]);
     const Index half = graph_.split(spoke, 0.5);
     const Index node = graph_.graph().from(half);
@@ -324,10 +274,10 @@ class Partitioner {
   Index straighten(const std::vector<Index>& cell) {
     if (cell.size() < 4) return 0;
     Index moved = 0;
-    Polygon p = polygon(cell);
+    Polygon p = corner_positions(graph_, cell);
     for (std::size_t i = 0; i < p.size(); ++i) {
       const Index node = graph_.graph().from(cell[i]);
-      const Vec3 n = newell(p).normalized();
+      const Vec3 n = vector_area(p).normalized();
       if (graph_.rank(node) != NodeRank::line || !is_reflex(p, i, n)) continue;
       if (interior_angle(p, i, n) > kMovableAngle) continue;
       const Vec3& before = p[(i + p.size() - 1) % p.size()];

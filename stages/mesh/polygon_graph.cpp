@@ -139,6 +139,12 @@ std::vector<Index> PolygonGraph::cell(Index dart) const {
   return darts;
 }
 
+Index PolygonGraph::name_of_cell(Index dart) const {
+  Index least = dart;
+  for (Index d = graph_.next(dart); d != dart; d = graph_.next(d)) least = std::min(least, d);
+  return least;
+}
+
 Index PolygonGraph::find_edge(Index around, Index b) const {
   Index d = around;
   do {
@@ -237,11 +243,12 @@ SurfaceNode PolygonGraph::between(const SurfaceNode& a, const SurfaceNode& b, do
   return node;
 }
 
-Index PolygonGraph::split(Index dart, double share) {
-  const Index edge = DartGraph::edge_of(dart);
-  const Index even = 2 * edge;
+PolygonGraph::Cut PolygonGraph::cut(Index dart, double share) const {
+  const Index even = dart & ~1;
   if (dart != even) share = 1 - share;
-  std::vector<SurfaceNode> points = std::move(course_[edge]);
+  Cut result;
+  result.points = course_[DartGraph::edge_of(dart)];
+  std::vector<SurfaceNode>& points = result.points;
   points.insert(points.begin(), nodes_[graph_.from(even)]);
   points.push_back(nodes_[graph_.to(even)]);
   std::vector<double> arc(points.size(), 0);
@@ -253,29 +260,37 @@ Index PolygonGraph::split(Index dart, double share) {
   while (at + 1 < points.size() && arc[at] < wanted) ++at;
   const double span = arc[at] - arc[at - 1];
   const double local = span > 0 ? std::clamp((wanted - arc[at - 1]) / span, 0.0, 1.0) : 0.5;
-  SurfaceNode middle;
-  std::size_t resume = at;       // first inner point of the second half
+  result.resume = at;
   constexpr double kSnap = 0.3;  // to a point that exists, so that corners of the course are kept
   if (local > 1 - kSnap && at + 1 < points.size()) {
-    middle = points[at];
-    resume = at + 1;
+    result.node = points[at];
+    result.resume = at + 1;
   } else if (local < kSnap && at > 1) {
-    middle = points[at - 1];
+    result.node = points[at - 1];
     --at;
   } else {
-    middle = between(points[at - 1], points[at], std::clamp(local, 0.1, 0.9));
+    result.node = between(points[at - 1], points[at], std::clamp(local, 0.1, 0.9));
   }
-  middle.vertex = kNone;
+  result.stop = at;
+  result.node.vertex = kNone;
+  return result;
+}
+
+Index PolygonGraph::split(Index dart, double share) {
+  const Index edge = DartGraph::edge_of(dart);
+  const Index even = 2 * edge;
+  const Cut cut = this->cut(dart, share);
   const auto node = static_cast<Index>(nodes_.size());
-  nodes_.push_back(middle);
+  nodes_.push_back(cut.node);
   rank_.push_back(is_barrier(even) ? NodeRank::barrier : NodeRank::line);
   const Index second = graph_.split_edge(even, node);
   kind_.push_back(kind_[edge]);
   line_.push_back(line_[edge]);
   outer_.push_back(outer_[even]);
   outer_.push_back(outer_[even + 1]);
-  course_.emplace_back(points.begin() + static_cast<std::ptrdiff_t>(resume), points.end() - 1);
-  course_[edge].assign(points.begin() + 1, points.begin() + static_cast<std::ptrdiff_t>(at));
+  const auto first = cut.points.begin();
+  course_.emplace_back(first + static_cast<std::ptrdiff_t>(cut.resume), cut.points.end() - 1);
+  course_[edge].assign(first + 1, first + static_cast<std::ptrdiff_t>(cut.stop));
   return dart == even ? second : DartGraph::opposite(even);
 }
 

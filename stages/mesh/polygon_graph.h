@@ -32,6 +32,8 @@ class PolygonGraph {
   [[nodiscard]] Index degree(Index dart) const;
   /// Darts of the cell left of `dart`, starting with it.
   [[nodiscard]] std::vector<Index> cell(Index dart) const;
+  /// The least dart of the cell left of `dart`, to tell cells apart.
+  [[nodiscard]] Index name_of_cell(Index dart) const;
   /// A dart from a to b where `around` leaves a; kNone where there is no such edge.
   [[nodiscard]] Index find_edge(Index around, Index b) const;
   /// Length of the edge along the surface.
@@ -49,12 +51,25 @@ class PolygonGraph {
   /// Splits the edge at the point of its course nearest to `share` of its length, in (0, 1).
   /// \return dart that leaves the new node towards to(dart)
   Index split(Index dart, double share);
+  /// Where `split` would put the new node.
+  [[nodiscard]] Vec3 split_position(Index dart, double share) const {
+    return cut(dart, share).node.position;
+  }
   /// Moves a node on or near the surface; its place in the mesh stays that of its foot.
   void move(Index n, const Vec3& position) { nodes_[n].position = position; }
   /// Points along the edge, both ends included, in the direction of `dart`.
   [[nodiscard]] std::vector<Vec3> course(Index dart) const;
 
  private:
+  /// A point on an edge, and which points of its course come before and after it.
+  struct Cut {
+    SurfaceNode node;
+    std::vector<SurfaceNode> points;  ///< the whole course, ends included, along the even dart
+    std::size_t stop = 0;             ///< points[1 .. stop) come before the node
+    std::size_t resume = 0;           ///< points[resume .. size - 1) come after it
+  };
+
+  [[nodiscard]] Cut cut(Index dart, double share) const;
   void add_chain(const Overlay& overlay, Index first, std::vector<Index>& dart_of,
                  const std::vector<char>& kept, std::vector<Index>& node_of);
   void extend_course(Index first, Index dart);

@@ -41,21 +41,6 @@ bool keeps_faces(const PolygonGraph& graph, Index dart) {
   return true;
 }
 
-/// Removes one edge of a cell with two sides, the less important one.
-bool remove_bigon(PolygonGraph& graph, Index dart) {
-  const DartGraph& g = graph.graph();
-  const Index other = g.next(dart);
-  if (g.next(other) != dart || g.from(dart) == g.to(dart)) return false;
-  if (DartGraph::edge_of(dart) == DartGraph::edge_of(other)) return false;
-  const auto weight = [&](Index d) {
-    return (graph.is_barrier(d) ? 2 : 0) + (graph.kind(d) == EdgeKind::line ? 1 : 0);
-  };
-  const Index weaker = weight(dart) <= weight(other) ? dart : other;
-  if (graph.is_barrier(weaker)) return false;
-  graph.remove_edge(weaker);
-  return true;
-}
-
 /// Dissolves a node of degree two where that leaves polygons with distinct edges.
 bool try_dissolve(PolygonGraph& graph, Index dart) {
   const DartGraph& g = graph.graph();
@@ -188,7 +173,21 @@ void separate_edges(PolygonGraph& graph, SimplifyCounts& counts) {
 
 }  // namespace
 
-bool can_contract(const PolygonGraph& graph, Index dart) {
+bool remove_bigon(PolygonGraph& graph, Index dart) {
+  const DartGraph& g = graph.graph();
+  const Index other = g.next(dart);
+  if (g.next(other) != dart || g.from(dart) == g.to(dart)) return false;
+  if (DartGraph::edge_of(dart) == DartGraph::edge_of(other)) return false;
+  const auto weight = [&](Index d) {
+    return (graph.is_barrier(d) ? 2 : 0) + (graph.kind(d) == EdgeKind::line ? 1 : 0);
+  };
+  const Index weaker = weight(dart) <= weight(other) ? dart : other;
+  if (graph.is_barrier(weaker)) return false;
+  graph.remove_edge(weaker);
+  return true;
+}
+
+bool keeps_topology(const PolygonGraph& graph, Index dart) {
   const DartGraph& g = graph.graph();
   const Index u = g.from(dart);
   const Index v = g.to(dart);
@@ -232,7 +231,11 @@ bool can_contract(const PolygonGraph& graph, Index dart) {
     const Index across = g.next(DartGraph::opposite(cell[1]));
     if (g.to(across) == v && g.next(g.next(across)) == DartGraph::opposite(cell[1])) return false;
   }
-  return keeps_faces(graph, dart);
+  return true;
+}
+
+bool can_contract(const PolygonGraph& graph, Index dart) {
+  return keeps_topology(graph, dart) && keeps_faces(graph, dart);
 }
 
 SimplifyCounts simplify(PolygonGraph& graph, const LocalSize& size, double shortest) {

@@ -25,7 +25,14 @@ using LocalSize = std::function<double(const SurfaceNode&)>;
 /// \param shortest edges below this share of the local size are contracted
 SimplifyCounts simplify(PolygonGraph& graph, const LocalSize& size, double shortest);
 
-/// Whether from(dart) may be merged into to(dart): link condition, ranks, and no face turns over.
+/// Removes one edge of a cell with two sides, the less important one. \return whether it was one
+bool remove_bigon(PolygonGraph& graph, Index dart);
+
+/// Whether merging from(dart) into to(dart) leaves a surface of the same topology whose features
+/// and boundaries stay: link condition and ranks.
+bool keeps_topology(const PolygonGraph& graph, Index dart);
+
+/// Whether, besides, no face turns over.
 bool can_contract(const PolygonGraph& graph, Index dart);
 
 }  // namespace strake

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "common/core/types.h"
+#include "stages/mesh/polygon_graph.h"
+
+namespace strake {
+
+/// Corners of a cell in order, counter-clockwise seen from outside.
+using Polygon = std::vector<Vec3>;
+
+Polygon corner_positions(const PolygonGraph& graph, const std::vector<Index>& cell);
+
+/// The vector area of a polygon (Newell).
+Vec3 vector_area(const Polygon& p);
+
+/// Interior angle at corner i, in [0, 2 pi), seen along the unit normal n.
+double interior_angle(const Polygon& p, std::size_t i, const Vec3& n);
+
+/// Whether a corner turns against the unit normal of the polygon: the measure of concavity.
+bool is_reflex(const Polygon& p, std::size_t i, const Vec3& n);
+
+/// Penalty of a face: squared deviation of its corners from right angles in rad^2, mean over the
+/// corners, with extra for reflex corners and for other shapes than quads ([MK04] section 5.2
+/// scores by right angles). Infinite where it is thin as a line or turned against `surface_normal`.
+double shape_penalty(const Polygon& p, const Vec3& surface_normal);
+
+}  // namespace strake

@@ -1,0 +1,239 @@
+#include "stages/mesh/chord.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "stages/mesh/cell_shape.h"
+#include "stages/mesh/simplify.h"
+
+namespace strake {
+namespace {
+
+/// Price of halving an edge that already has the wanted length; none at twice that.
+constexpr double kSplitPrice = 0.3;
+/// Price of taking an edge of the wanted length away; falls with the square of its length.
+constexpr double kCollapsePrice = 0.6;
+constexpr double kNever = -std::numeric_limits<double>::infinity();
+/// No face counts as worse than this, however thin it is now.
+constexpr double kWorstShape = 10;
+/// Faces may not turn by more than this.
+constexpr double kLeastTurnCosine = 0.5;
+
+/// Nodes that are about to move, and where to.
+class Moves {
+ public:
+  void add(Index node, const Vec3& to) { moves_.emplace_back(node, to); }
+  [[nodiscard]] const Vec3* find(Index node) const {
+    for (const auto& [moved, to] : moves_) {
+      if (moved == node) return &to;
+    }
+    return nullptr;
+  }
+
+ private:
+  std::vector<std::pair<Index, Vec3>> moves_;
+};
+
+Vec3 middle(const PolygonGraph& graph, Index dart) { return graph.split_position(dart, 0.5); }
+
+double edge_ratio(const PolygonGraph& graph, Index dart, const EdgeLength& wanted) {
+  const DartGraph& g = graph.graph();
+  return (graph.position(g.from(dart)) - graph.position(g.to(dart))).norm() / wanted(dart);
+}
+
+/// Penalty of a face after a change; infinite where it is concave or turned over.
+double changed_penalty(const Polygon& p, const Vec3& normal_before) {
+  const Vec3 normal = vector_area(p);
+  const double area = normal.norm();
+  if (!(normal.dot(normal_before) > kLeastTurnCosine * area * normal_before.norm())) {
+    return std::numeric_limits<double>::infinity();
+  }
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (is_reflex(p, i, normal / area)) return std::numeric_limits<double>::infinity();
+  }
+  return shape_penalty(p, normal_before);
+}
+
+double penalty_now(const Polygon& p) { return shape_penalty(p, vector_area(p)); }
+
+/// Gain of halving a cell between the middles of two edges, or from one to the opposite corner.
+double halving_gain(const PolygonGraph& graph, Index in, Index out) {
+  const std::vector<Index> cell = graph.cell(out);
+  const Polygon p = corner_positions(graph, cell);
+  const Vec3 normal = vector_area(p);
+  Polygon whole;  // with the new nodes, starting at the middle of `out`
+  std::size_t other = 0;
+  whole.push_back(middle(graph, out));
+  for (std::size_t i = 1; i <= p.size(); ++i) {
+    whole.push_back(p[i % p.size()]);
+    if (in != kNone && cell[i % p.size()] == in) {
+      other = whole.size();
+      whole.push_back(middle(graph, in));
+    }
+  }
+  if (in == kNone) {
+    if (p.size() == 3) return penalty_now(p) - changed_penalty(whole, normal);
+    other = 3;
+  }
+  const Polygon one(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(other) + 1);
+  Polygon two(whole.begin() + static_cast<std::ptrdiff_t>(other), whole.end());
+  two.push_back(whole.front());
+  return penalty_now(p) - changed_penalty(one, normal) - changed_penalty(two, normal);
+}
+
+/// Where the ends of the rungs meet when a strip is taken out: in the middle, or at the end that is
+/// on a feature or boundary. Nothing where both are, or where the strip touches itself.
+std::optional<Moves> merging_moves(const PolygonGraph& graph, const Chord& chord) {
+  Moves moves;
+  for (const Index rung : chord.rungs) {
+    const Index a = graph.graph().from(rung);
+    const Index b = graph.graph().to(rung);
+    const bool a_free = graph.rank(a) == NodeRank::line;
+    const bool b_free = graph.rank(b) == NodeRank::line;
+    if (graph.is_barrier(rung) || (!a_free && !b_free)) return std::nullopt;
+    if (moves.find(a) != nullptr || moves.find(b) != nullptr) return std::nullopt;
+    const Vec3 to = a_free && b_free ? middle(graph, rung) : graph.position(a_free ? b : a);
+    moves.add(a, to);
+    moves.add(b, to);
+  }
+  return moves;
+}
+
+/// A dart of each cell at an end of a rung.
+std::vector<Index> cells_at(const PolygonGraph& graph, const Chord& chord) {
+  std::vector<Index> names;
+  for (const Index rung : chord.rungs) {
+    for (const Index side : {rung, DartGraph::opposite(rung)}) {
+      Index d = side;
+      do {
+        if (!graph.is_hole(d)) names.push_back(graph.name_of_cell(d));
+        d = graph.graph().rotate_ccw(d);
+      } while (d != side);
+    }
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+/// The corners of a cell after some have moved, those that meet only once.
+Polygon moved_cell(const PolygonGraph& graph, Index cell, const Moves& moves) {
+  Polygon after;
+  for (const Index d : graph.cell(cell)) {
+    const Index node = graph.graph().from(d);
+    const Vec3* moved = moves.find(node);
+    const Vec3& at = moved != nullptr ? *moved : graph.position(node);
+    if (after.empty() || (after.back() != at && after.front() != at)) after.push_back(at);
+  }
+  return after;
+}
+
+}  // namespace
+
+std::optional<Chord> follow_chord(const PolygonGraph& graph, Index dart, std::size_t most) {
+  const DartGraph& g = graph.graph();
+  std::vector<Index> visited = {graph.name_of_cell(dart)};
+  Chord chord;
+  for (Index d = dart;; d = g.next(g.next(DartGraph::opposite(d)))) {
+    chord.rungs.push_back(d);
+    if (chord.rungs.size() > most) return std::nullopt;
+    const Index across = DartGraph::opposite(d);
+    if (graph.is_outer(across)) {
+      chord.ends_outside = true;
+      return chord;
+    }
+    const std::vector<Index> cell = graph.cell(across);
+    const Index name = graph.name_of_cell(across);
+    if (std::find(visited.begin(), visited.end(), name) != visited.end()) return std::nullopt;
+    if (cell.size() == 3 || cell.size() == 5) return chord;
+    if (cell.size() != 4) return std::nullopt;
+    visited.push_back(name);
+  }
+}
+
+double split_gain(const PolygonGraph& graph, const Chord& chord, const EdgeLength& wanted) {
+  double gain = 0;
+  for (std::size_t k = 0; k < chord.rungs.size(); ++k) {
+    const Index rung = chord.rungs[k];
+    gain -= kSplitPrice * std::max(0.0, 2 - edge_ratio(graph, rung, wanted));
+    const Index in = k == 0 ? kNone : DartGraph::opposite(chord.rungs[k - 1]);
+    gain += halving_gain(graph, in, rung);
+    if (!(gain > kNever)) return kNever;
+  }
+  if (!chord.ends_outside) {
+    gain += halving_gain(graph, kNone, DartGraph::opposite(chord.rungs.back()));
+  }
+  return gain;
+}
+
+void split_strip(PolygonGraph& graph, const Chord& chord) {
+  const DartGraph& g = graph.graph();
+  const auto connect_across = [&](Index leaving) {  // in an odd face
+    if (graph.cell(leaving).size() == 6) {
+      graph.connect(leaving, g.next(g.next(g.next(leaving))));
+    }
+  };
+  Index behind = kNone;  // dart that leaves the last new node into the cell ahead
+  for (const Index rung : chord.rungs) {
+    const Index leaving = graph.split(rung, 0.5);
+    const Index ahead = DartGraph::opposite(g.prev(leaving));
+    if (behind == kNone) {
+      connect_across(leaving);
+    } else {
+      graph.connect(behind, leaving);
+    }
+    behind = ahead;
+  }
+  if (!chord.ends_outside) connect_across(behind);
+}
+
+double collapse_gain(const PolygonGraph& graph, const Chord& chord, const EdgeLength& wanted) {
+  if (chord.ends_outside) return kNever;
+  const std::optional<Moves> moves = merging_moves(graph, chord);
+  if (!moves) return kNever;
+  double gain = 0;
+  for (const Index rung : chord.rungs) {
+    const double ratio = edge_ratio(graph, rung, wanted);
+    gain -= kCollapsePrice * ratio * ratio;
+  }
+  for (const Index cell : cells_at(graph, chord)) {
+    const Polygon before = corner_positions(graph, graph.cell(cell));
+    gain += std::min(penalty_now(before), kWorstShape);
+    const Polygon after = moved_cell(graph, cell, *moves);
+    if (after.size() > 2) gain -= changed_penalty(after, vector_area(before));
+    if (!(gain > kNever)) return kNever;
+  }
+  return gain;
+}
+
+std::size_t collapse_strip(PolygonGraph& graph, const Chord& chord) {
+  const DartGraph& g = graph.graph();
+  std::size_t done = 0;
+  for (const Index rung : chord.rungs) {
+    Index dart = rung;
+    const NodeRank a = graph.rank(g.from(dart));
+    const NodeRank b = graph.rank(g.to(dart));
+    if (a > b) dart = DartGraph::opposite(dart);
+    if (!keeps_topology(graph, dart)) return done;
+    if (a == b) {
+      const Index second = graph.split(dart, 0.5);
+      const Index first = g.prev(second);
+      // Both ends are merged into the middle.
+      const Index back = DartGraph::opposite(second);
+      graph.contract(back);
+      dart = first;
+    }
+    const Index left = g.next(dart);
+    const Index right = g.next(DartGraph::opposite(dart));
+    graph.contract(dart);
+    for (const Index side : {left, right}) {
+      if (g.is_alive(side)) remove_bigon(graph, side);
+    }
+    ++done;
+  }
+  return done;
+}
+
+}  // namespace strake

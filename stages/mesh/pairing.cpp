@@ -1,0 +1,199 @@
+#include "stages/mesh/pairing.h"
+
+#include <algorithm>
+
+#include "stages/mesh/patch.h"
+
+namespace strake {
+namespace {
+
+constexpr int kMostRounds = 12;
+constexpr std::size_t kLongestChord = 24;
+/// Quads between two odd faces that are divided anew together with them.
+constexpr std::size_t kMostBetween = 2;
+constexpr double kLeastGain = 0.05;
+
+enum class ChangeKind : std::uint8_t { pair_neighbours, turn_edge, split_strip, collapse_strip };
+
+/// A change that can be made, and what it changes: a patch or a chord.
+struct Change {
+  double gain;
+  ChangeKind kind;
+  Patch patch;
+  Division division;
+  Chord chord;
+};
+
+class Pairing {
+ public:
+  Pairing(PolygonGraph& graph, const EdgeLength& wanted, double price)
+      : graph_(graph), wanted_(wanted), price_(price) {}
+
+  PairingCounts run() {
+    for (int round = 0; round < kMostRounds; ++round) {
+      if (!make(changes())) break;
+    }
+    return counts_;
+  }
+
+ private:
+  [[nodiscard]] std::size_t sides(Index dart) const { return graph_.cell(dart).size(); }
+  [[nodiscard]] bool is_odd(Index dart) const {
+    const std::size_t n = sides(dart);
+    return n == 3 || n == 5;
+  }
+
+  /// Everything worth doing, the best first.
+  std::vector<Change> changes() {
+    const DartGraph& g = graph_.graph();
+    std::vector<Change> found;
+    std::vector<char> seen(g.dart_count(), 0);
+    for (Index d = 0; d < g.dart_count(); ++d) {
+      if (!g.is_alive(d) || seen[d] != 0) continue;
+      const std::vector<Index> cell = graph_.cell(d);
+      for (const Index other : cell) seen[other] = 1;
+      if (graph_.is_hole(d)) continue;
+      if (cell.size() == 3 || cell.size() == 5) {
+        for (const Index out : cell) add_chords(out, found);
+        std::vector<Index> way = {d};
+        add_patches(way, found);
+      } else if (cell.size() == 4) {
+        for (const Index out : cell) add_turn(out, found);
+      }
+    }
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Change& a, const Change& b) { return a.gain > b.gain; });
+    return found;
+  }
+
+  void add_chords(Index out, std::vector<Change>& found) {
+    const std::optional<Chord> chord = follow_chord(graph_, out, kLongestChord);
+    if (!chord) return;
+    // Both ways along a chord are found; boundaries are reached from one end only.
+    const double bonus = price_ * (chord->ends_outside ? 1 : 2);
+    const double split = bonus + split_gain(graph_, *chord, wanted_);
+    if (split > kLeastGain) found.push_back({split, ChangeKind::split_strip, {}, {}, *chord});
+    const double collapse = bonus + collapse_gain(graph_, *chord, wanted_);
+    if (collapse > kLeastGain)
+      found.push_back({collapse, ChangeKind::collapse_strip, {}, {}, *chord});
+  }
+
+  /// Patches that start with an odd face, go on over quads and end at another odd face.
+  void add_patches(std::vector<Index>& way, std::vector<Change>& found) {
+    for (const Index out : graph_.cell(way.back())) {
+      const Index across = DartGraph::opposite(out);
+      if (graph_.is_barrier(out) || graph_.is_hole(across)) continue;
+      const std::size_t n = sides(across);
+      way.push_back(across);
+      if (n == 3 || n == 5) {
+        add_patch(way, ChangeKind::pair_neighbours, 2 * price_, found);
+      } else if (n == 4 && way.size() <= kMostBetween + 1) {
+        add_patches(way, found);
+      }
+      way.pop_back();
+    }
+  }
+
+  void add_turn(Index out, std::vector<Change>& found) {
+    const Index across = DartGraph::opposite(out);
+    if (out > across || graph_.is_barrier(out) || graph_.is_hole(across) || sides(across) != 4) {
+      return;
+    }
+    add_patch({out, across}, ChangeKind::turn_edge, 0, found);
+  }
+
+  void add_patch(const std::vector<Index>& cells, ChangeKind kind, double bonus,
+                 std::vector<Change>& found) const {
+    std::optional<Patch> patch = join_cells(graph_, cells);
+    if (!patch) return;
+    std::optional<Division> division = best_division(graph_, *patch);
+    if (!division || !(division->gain + bonus > kLeastGain)) return;
+    found.push_back({division->gain + bonus, kind, std::move(*patch), std::move(*division), {}});
+  }
+
+  /// Makes the changes that do not touch what an earlier one has changed. \return whether any
+  bool make(const std::vector<Change>& changes) {
+    touched_.assign(graph_.node_count(), 0);
+    bool any = false;
+    for (const Change& change : changes) {
+      if (!claim(change)) continue;
+      apply(change);
+      touched_.resize(graph_.node_count(), 1);
+      any = true;
+    }
+    return any;
+  }
+
+  [[nodiscard]] bool claim(const Change& change) {
+    return change.chord.rungs.empty()
+               ? claim_origins(change.patch.outline)
+               : claim_cells(change.chord, change.kind == ChangeKind::collapse_strip);
+  }
+
+  /// Takes nodes for a change. \return false where one has been taken before in this round
+  [[nodiscard]] bool claim_origins(const std::vector<Index>& darts) {
+    const DartGraph& g = graph_.graph();
+    for (const Index d : darts) {
+      if (touched_[g.from(d)] != 0) return false;
+    }
+    for (const Index d : darts) touched_[g.from(d)] = 1;
+    return true;
+  }
+
+  /// Takes the corners of the cells along a chord, or of all cells at its rungs.
+  [[nodiscard]] bool claim_cells(const Chord& chord, bool all) {
+    const DartGraph& g = graph_.graph();
+    std::vector<Index> corners;
+    for (const Index rung : chord.rungs) {
+      // Where nothing has touched the ends, the rung and the cells at it are what they were.
+      if (touched_[g.from(rung)] != 0 || touched_[g.to(rung)] != 0) return false;
+      for (const Index side : {rung, DartGraph::opposite(rung)}) {
+        Index d = side;
+        do {
+          if (!graph_.is_hole(d)) {
+            const std::vector<Index> cell = graph_.cell(d);
+            corners.insert(corners.end(), cell.begin(), cell.end());
+          }
+          d = g.rotate_ccw(d);
+        } while (all && d != side);
+      }
+    }
+    return claim_origins(corners);
+  }
+
+  void apply(const Change& change) {
+    switch (change.kind) {
+      case ChangeKind::pair_neighbours:
+        divide(graph_, change.patch, change.division);
+        ++counts_.divided_patches;
+        break;
+      case ChangeKind::turn_edge:
+        divide(graph_, change.patch, change.division);
+        ++counts_.turned_edges;
+        break;
+      case ChangeKind::split_strip:
+        split_strip(graph_, change.chord);
+        ++counts_.split_strips;
+        break;
+      case ChangeKind::collapse_strip:
+        collapse_strip(graph_, change.chord);
+        ++counts_.collapsed_strips;
+        break;
+    }
+  }
+
+  PolygonGraph& graph_;
+  const EdgeLength& wanted_;
+  double price_;
+  std::vector<char> touched_;  ///< [nodes] in this round
+  PairingCounts counts_;
+};
+
+}  // namespace
+
+PairingCounts pair_odd_faces(PolygonGraph& graph, const EdgeLength& wanted, double price) {
+  if (!(price > 0)) return {};
+  return Pairing(graph, wanted, price).run();
+}
+
+}  // namespace strake

@@ -1,0 +1,226 @@
+#include "stages/mesh/patch.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "stages/mesh/cell_shape.h"
+
+namespace strake {
+namespace {
+
+/// Weight of the squared deviation of a valence from four, beside shape penalties of about 1.
+constexpr double kValencePrice = 0.1;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double valence_penalty(Index degree) { return kValencePrice * (degree - 4) * (degree - 4); }
+
+/// The best division of a polygon into quads, by dynamic programming over the chords (i, j) that
+/// close the run of corners from i to j.
+class Divider {
+ public:
+  Divider(const PolygonGraph& graph, const Patch& patch)
+      : graph_(graph), patch_(patch), p_(corner_positions(graph, patch.outline)) {
+    normal_ = vector_area(p_);
+    const std::size_t n = p_.size();
+    base_degree_.resize(n);
+    for (std::size_t i = 0; i < n; ++i) base_degree_[i] = graph.degree(patch.outline[i]);
+    for (const Index d : patch.inner) {
+      for (std::size_t i = 0; i < n; ++i) {
+        const Index node = node_at(i);
+        if (graph.graph().from(d) == node || graph.graph().to(d) == node) --base_degree_[i];
+      }
+    }
+    best_.assign(n * n, kUnknown);
+    choice_.resize(n * n);
+  }
+
+  std::optional<Division> run() {
+    const std::size_t n = p_.size();
+    double after = best(0, n - 1);
+    if (!(after < kInfinity)) return std::nullopt;
+    Division division;
+    collect(0, n - 1, division.diagonals);
+    std::vector<Index> degree = base_degree_;
+    for (const auto& [i, j] : division.diagonals) {
+      ++degree[i];
+      ++degree[j];
+    }
+    double before = 0;
+    after = shapes(0, n - 1);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (graph_.rank(node_at(i)) != NodeRank::line) continue;
+      if (degree[i] < 3) return std::nullopt;
+      before += valence_penalty(graph_.degree(patch_.outline[i]));
+      after += valence_penalty(degree[i]);
+    }
+    division.gain = shapes_now() + before - after;
+    return division;
+  }
+
+ private:
+  static constexpr double kUnknown = -kInfinity;
+
+  [[nodiscard]] Index node_at(std::size_t i) const {
+    return graph_.graph().from(patch_.outline[i]);
+  }
+
+  [[nodiscard]] double quad(std::size_t i, std::size_t a, std::size_t b, std::size_t j) const {
+    const Polygon q = {p_[i], p_[a], p_[b], p_[j]};
+    const Vec3 n = vector_area(q);
+    const double length = n.norm();
+    if (!(length > 0)) return kInfinity;
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (is_reflex(q, k, n / length)) return kInfinity;
+    }
+    return shape_penalty(q, normal_);
+  }
+
+  /// Price of a diagonal for the valences at its ends; infinite where there is such an edge.
+  [[nodiscard]] double diagonal(std::size_t i, std::size_t j) const {
+    if (node_at(i) == node_at(j)) return kInfinity;
+    const Index other = graph_.find_edge(patch_.outline[i], node_at(j));
+    if (other != kNone && !is_inner(other)) return kInfinity;
+    double price = 0;
+    for (const std::size_t end : {i, j}) {
+      if (graph_.rank(node_at(end)) != NodeRank::line) continue;
+      price += valence_penalty(base_degree_[end] + 1) - valence_penalty(base_degree_[end]);
+    }
+    return price;
+  }
+
+  [[nodiscard]] bool is_inner(Index dart) const {
+    return std::any_of(patch_.inner.begin(), patch_.inner.end(),
+                       [&](Index d) { return DartGraph::edge_of(d) == DartGraph::edge_of(dart); });
+  }
+
+  double chord(std::size_t i, std::size_t j) {
+    return j - i == 1 ? 0.0 : diagonal(i, j) + best(i, j);
+  }
+
+  /// Least price of the corners from i to j, closed by the chord between these.
+  double best(std::size_t i, std::size_t j) {
+    double& known = best_[i * p_.size() + j];
+    if (known != kUnknown) return known;
+    double least = kInfinity;
+    for (std::size_t a = i + 1; a < j; a += 2) {
+      for (std::size_t b = a + 1; b < j; b += 2) {
+        const double shape = quad(i, a, b, j);
+        if (!(shape < least + 1)) continue;  // diagonals may lower the price a little
+        const double price = shape + chord(i, a) + chord(a, b) + chord(b, j);
+        if (!(price < least)) continue;
+        least = price;
+        choice_[i * p_.size() + j] = {a, b};
+      }
+    }
+    return best_[i * p_.size() + j] = least;
+  }
+
+  void collect(std::size_t i, std::size_t j,
+               std::vector<std::pair<std::size_t, std::size_t>>& diagonals) const {
+    const auto [a, b] = choice_[i * p_.size() + j];
+    for (const auto& [from, to] : {std::pair{i, a}, std::pair{a, b}, std::pair{b, j}}) {
+      if (to - from == 1) continue;
+      diagonals.emplace_back(from, to);
+      collect(from, to, diagonals);
+    }
+  }
+
+  [[nodiscard]] double shapes(std::size_t i, std::size_t j) const {
+    const auto [a, b] = choice_[i * p_.size() + j];
+    double sum = quad(i, a, b, j);
+    for (const auto& [from, to] : {std::pair{i, a}, std::pair{a, b}, std::pair{b, j}}) {
+      if (to - from > 1) sum += shapes(from, to);
+    }
+    return sum;
+  }
+
+  /// Penalty of the cells as they are.
+  [[nodiscard]] double shapes_now() const {
+    double sum = 0;
+    std::vector<Index> seen;
+    const auto add = [&](Index d) {
+      const Index name = graph_.name_of_cell(d);
+      if (std::find(seen.begin(), seen.end(), name) != seen.end()) return;
+      seen.push_back(name);
+      const Polygon cell = corner_positions(graph_, graph_.cell(d));
+      sum += std::min(shape_penalty(cell, normal_), kWorstShape);
+    };
+    for (const Index d : patch_.outline) add(d);
+    return sum;
+  }
+
+  static constexpr double kWorstShape = 10;
+
+  const PolygonGraph& graph_;
+  const Patch& patch_;
+  Polygon p_;
+  Vec3 normal_ = Vec3::Zero();
+  std::vector<Index> base_degree_;  ///< [n] without the edges inside
+  std::vector<double> best_;        ///< [n * n]
+  std::vector<std::pair<std::size_t, std::size_t>> choice_;
+};
+
+}  // namespace
+
+std::optional<Patch> join_cells(const PolygonGraph& graph, const std::vector<Index>& cells) {
+  const DartGraph& g = graph.graph();
+  std::vector<Index> darts;
+  for (const Index d : cells) {
+    const std::vector<Index> cell = graph.cell(d);
+    darts.insert(darts.end(), cell.begin(), cell.end());
+  }
+  std::sort(darts.begin(), darts.end());
+  if (std::adjacent_find(darts.begin(), darts.end()) != darts.end()) return std::nullopt;
+  const auto has = [&](Index d) { return std::binary_search(darts.begin(), darts.end(), d); };
+  Patch patch;
+  Index start = kNone;
+  for (const Index d : darts) {
+    if (!has(DartGraph::opposite(d))) {
+      if (start == kNone) start = d;
+    } else if (graph.is_barrier(d)) {
+      return std::nullopt;
+    } else if (d % 2 == 0) {
+      patch.inner.push_back(d);
+    }
+  }
+  // A tree of edges between cells leaves no node inside.
+  if (start == kNone || patch.inner.size() + 1 != cells.size()) return std::nullopt;
+  std::vector<Index> nodes;
+  Index d = start;
+  do {
+    patch.outline.push_back(d);
+    nodes.push_back(g.from(d));
+    d = g.next(d);
+    while (has(DartGraph::opposite(d))) d = g.next(DartGraph::opposite(d));
+  } while (d != start);
+  std::sort(nodes.begin(), nodes.end());
+  if (std::adjacent_find(nodes.begin(), nodes.end()) != nodes.end()) return std::nullopt;
+  if (patch.outline.size() % 2 != 0 || patch.outline.size() < 4) return std::nullopt;
+  if (patch.outline.size() + 2 * patch.inner.size() != darts.size()) return std::nullopt;
+  return patch;
+}
+
+std::optional<Division> best_division(const PolygonGraph& graph, const Patch& patch) {
+  return Divider(graph, patch).run();
+}
+
+void divide(PolygonGraph& graph, const Patch& patch, const Division& division) {
+  for (const Index d : patch.inner) graph.remove_edge(d);
+  // Each diagonal (i, j) cuts the corners from i to j off the innermost run that holds both; the
+  // corners strictly inside a run leave it by their edges of the outline.
+  struct Run {
+    std::size_t first, last;
+    Index closing;  ///< leaves corner `last`
+  };
+  std::vector<Run> runs = {{0, patch.outline.size() - 1, patch.outline.back()}};
+  for (const auto& [i, j] : division.diagonals) {
+    const auto run = std::find_if(runs.rbegin(), runs.rend(), [i = i, j = j](const Run& r) {
+      return r.first <= i && j <= r.last;
+    });
+    const Index dart =
+        graph.connect(patch.outline[i], j == run->last ? run->closing : patch.outline[j]);
+    runs.push_back({i, j, DartGraph::opposite(dart)});
+  }
+}
+
+}  // namespace strake

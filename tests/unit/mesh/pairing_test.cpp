@@ -1,0 +1,220 @@
+#include "stages/mesh/pairing.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <map>
+#include <set>
+
+#include "common/geometry/poly_topology/face_shape.h"
+#include "common/geometry/poly_topology/poly_topology.h"
+#include "common/geometry/samples/samples.h"
+#include "tests/support/chain.h"
+#include "tests/support/mesh_support.h"
+#include "tests/unit/mesh/graphs.h"
+
+namespace strake {
+namespace {
+
+struct Grid {
+  std::vector<double> x;
+  std::vector<double> y;
+};
+
+std::vector<double> steps(int n) {
+  std::vector<double> places;
+  for (int i = 0; i < n; ++i) places.push_back(i);
+  return places;
+}
+
+/// A triangulated grid in the plane, with its four corners.
+TriMesh grid_mesh(const Grid& grid) {
+  PolyMesh soup;
+  const auto columns = static_cast<Index>(grid.x.size());
+  const auto rows = static_cast<Index>(grid.y.size());
+  for (Index j = 0; j < rows; ++j) {
+    for (Index i = 0; i < columns; ++i) soup.positions.emplace_back(grid.x[i], grid.y[j], 0);
+  }
+  for (Index j = 0; j + 1 < rows; ++j) {
+    for (Index i = 0; i + 1 < columns; ++i) {
+      const Index a = j * columns + i;
+      soup.add_face(std::array<Index, 3>{a, a + 1, a + columns + 1});
+      soup.add_face(std::array<Index, 3>{a, a + columns + 1, a + columns});
+    }
+  }
+  TriMesh mesh = support::plain_tri_mesh(soup);
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const Vec3 p = mesh.positions[v] + mesh.origin;
+    const bool side = p.x() == grid.x.front() || p.x() == grid.x.back();
+    if (side && (p.y() == grid.y.front() || p.y() == grid.y.back())) mesh.is_corner[v] = 1;
+  }
+  return mesh;
+}
+
+using KeepEdge = std::function<bool(const Vec3& from, const Vec3& to)>;
+
+/// The cells between those edges of a grid that `keep` accepts. The mesh must outlive them.
+PolygonGraph cells_of(const TriMesh& mesh, const KeepEdge& keep) {
+  Overlay overlay = overlay_of(mesh);
+  for (Index e = 0; e < overlay.graph.dart_count() / 2; ++e) {
+    if (overlay.kind[e] != EdgeKind::surface) continue;
+    const Vec3& a = overlay.nodes[overlay.graph.from(2 * e)].position;
+    const Vec3& b = overlay.nodes[overlay.graph.to(2 * e)].position;
+    if (keep(a + mesh.origin, b + mesh.origin)) overlay.kind[e] = EdgeKind::line;
+  }
+  reduce_to_lines(overlay);
+  return {mesh, overlay};
+}
+
+bool is_diagonal(const Vec3& a, const Vec3& b) { return a.x() != b.x() && a.y() != b.y(); }
+
+/// Number of cells by their number of sides.
+std::map<std::size_t, int> sides(const PolygonGraph& graph) {
+  std::map<std::size_t, int> count;
+  std::set<Index> seen;
+  for (Index d = 0; d < graph.graph().dart_count(); ++d) {
+    if (!graph.graph().is_alive(d) || graph.is_hole(d)) continue;
+    if (seen.insert(graph.name_of_cell(d)).second) ++count[graph.cell(d).size()];
+  }
+  return count;
+}
+
+std::set<std::pair<double, double>> places(const PolygonGraph& graph, const TriMesh& mesh) {
+  std::set<std::pair<double, double>> found;
+  for (Index d = 0; d < graph.graph().dart_count(); ++d) {
+    if (!graph.graph().is_alive(d)) continue;
+    const Vec3 p = graph.position(graph.graph().from(d)) + mesh.origin;
+    found.emplace(std::round(p.x() * 1e9) / 1e9, std::round(p.y() * 1e9) / 1e9);
+  }
+  return found;
+}
+
+double unit_length(Index) { return 1; }
+
+TEST(PairOddFaces, ProlongsALineAcrossAGap) {
+  const Grid grid = {{0, 1, 2, 2.6, 3.2, 4, 5}, steps(9)};
+  const TriMesh mesh = grid_mesh(grid);
+  const PolygonGraph whole =
+      cells_of(mesh, [](const Vec3& a, const Vec3& b) { return !is_diagonal(a, b); });
+  // The line x = 2.6 is missing between y = 3 and y = 5.
+  PolygonGraph graph = cells_of(mesh, [](const Vec3& a, const Vec3& b) {
+    const double middle = (a.y() + b.y()) / 2;
+    const bool gap = a.x() == 2.6 && b.x() == 2.6 && middle > 3 && middle < 5;
+    return !is_diagonal(a, b) && !gap;
+  });
+  ASSERT_EQ(sides(graph)[5], 2);
+  const PairingCounts counts = pair_odd_faces(graph, unit_length, 1);
+  EXPECT_EQ(counts.split_strips, 1);
+  EXPECT_EQ(sides(graph), sides(whole));
+  EXPECT_EQ(places(graph, mesh), places(whole, mesh));
+  EXPECT_TRUE(is_consistent(graph.graph()));
+}
+
+TEST(PairOddFaces, TakesBackAShortPieceOfALineBetweenNarrowOnes) {
+  const Grid grid = {{0, 1, 2, 2.4, 2.8, 4, 5}, steps(12)};
+  const TriMesh mesh = grid_mesh(grid);
+  // The line x = 2.4 is there only between y = 5 and y = 7.
+  const auto only = [](double from, double to) {
+    return [=](const Vec3& a, const Vec3& b) {
+      const double middle = (a.y() + b.y()) / 2;
+      const bool on_line = a.x() == 2.4 && b.x() == 2.4;
+      return !is_diagonal(a, b) && (!on_line || (middle > from && middle < to));
+    };
+  };
+  PolygonGraph without = cells_of(mesh, only(0, 0));
+  PolygonGraph graph = cells_of(mesh, only(5, 7));
+  ASSERT_EQ(sides(graph)[5], 2);
+  const PairingCounts counts = pair_odd_faces(graph, unit_length, 1);
+  EXPECT_EQ(counts.collapsed_strips, 1);
+  EXPECT_EQ(counts.split_strips, 0);
+  EXPECT_EQ(sides(graph), sides(without));
+  EXPECT_TRUE(is_consistent(graph.graph()));
+}
+
+TEST(PairOddFaces, JoinsTwoTriangles) {
+  const TriMesh mesh = grid_mesh({steps(6), steps(6)});
+  const PolygonGraph whole =
+      cells_of(mesh, [](const Vec3& a, const Vec3& b) { return !is_diagonal(a, b); });
+  PolygonGraph triangles = cells_of(mesh, [](const Vec3& a, const Vec3& b) {
+    const Vec3 middle = (a + b) / 2;
+    return !is_diagonal(a, b) || (middle - Vec3(2.5, 2.5, 0)).norm() < 0.1;
+  });
+  ASSERT_EQ(sides(triangles)[3], 2);
+  EXPECT_EQ(pair_odd_faces(triangles, unit_length, 1).divided_patches, 1);
+  EXPECT_EQ(sides(triangles), sides(whole));
+}
+
+TEST(PairOddFaces, LeavesAllAsItIsForNoPrice) {
+  const TriMesh mesh = grid_mesh({steps(6), steps(6)});
+  const auto all = [](const Vec3&, const Vec3&) { return true; };
+  PolygonGraph graph = cells_of(mesh, all);
+  const auto before = sides(graph);
+  pair_odd_faces(graph, unit_length, 0);
+  EXPECT_EQ(sides(graph), before);
+}
+
+struct Share {
+  Index quads = 0;
+  Index concave = 0;
+  double of_quads = 0;
+};
+
+Share share_of_quads(const QuadMesh& quads) {
+  Share share;
+  const PolyMesh& mesh = quads.mesh;
+  share.quads = analyse(mesh).quads;
+  share.of_quads = static_cast<double>(share.quads) / mesh.face_count();
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    if (is_concave_face(mesh.positions, mesh.face(f))) ++share.concave;
+  }
+  return share;
+}
+
+class PairedSurfaces : public ::testing::TestWithParam<SampleKind> {};
+
+INSTANTIATE_TEST_SUITE_P(Samples, PairedSurfaces,
+                         ::testing::Values(SampleKind::torus, SampleKind::ellipsoid,
+                                           SampleKind::saddle, SampleKind::part),
+                         [](const auto& test) {
+                           return sample_names()[static_cast<std::size_t>(test.param)];
+                         });
+
+/// Positions of vertices on feature and boundary lines, relative to the origin of the mesh.
+std::set<std::array<double, 3>> on_features(const support::Prepared& prepared,
+                                            const QuadMesh& quads) {
+  std::set<std::array<double, 3>> found;
+  for (std::size_t v = 0; v < quads.mesh.positions.size(); ++v) {
+    const Index face = quads.provenance.face[v];
+    for (int i = 0; i < 3; ++i) {
+      const Index opposite = 3 * face + (i + 1) % 3;
+      if (quads.provenance.barycentric[v][i] != 0 || !prepared.mesh.is_barrier(opposite)) continue;
+      const Vec3& p = quads.mesh.positions[v];
+      found.insert({p.x(), p.y(), p.z()});
+    }
+  }
+  return found;
+}
+
+TEST_P(PairedSurfaces, HaveFewOddFacesNoMoreConcaveOnesAndTheirFeatures) {
+  SampleOptions sample;
+  sample.faces = 8000;
+  sample.jitter = 0.5;
+  const support::Prepared prepared = support::prepare(make_sample(GetParam(), sample));
+  TraceOptions options;
+  options.vertices = 700;
+  const LineSet lines = support::trace(prepared, options);
+  const QuadMesh plain = support::mesh(prepared, lines, {.odd_price = 0});
+  const QuadMesh paired = support::mesh(prepared, lines, {.odd_price = 1});
+  const Share before = share_of_quads(plain);
+  const Share after = share_of_quads(paired);
+  EXPECT_LE(1 - after.of_quads, 0.4 * (1 - before.of_quads));
+  EXPECT_GE(after.of_quads, 0.96);
+  EXPECT_LE(after.concave, before.concave);
+  const auto features = on_features(prepared, paired);
+  for (const auto& p : on_features(prepared, plain)) {
+    EXPECT_TRUE(features.contains(p)) << "a vertex of a feature line is gone";
+  }
+}
+
+}  // namespace
+}  // namespace strake
