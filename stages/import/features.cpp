@@ -8,6 +8,7 @@
 
 #include "stages/import/face_normals.h"
 #include "stages/import/feature_graph.h"
+#include "stages/import/feature_noise.h"
 
 namespace strake::import {
 namespace {
@@ -28,17 +29,6 @@ std::vector<float> bend_angles(const TriMesh& mesh) {
     bend[h] = bend[twin] = static_cast<float>(angle_between(normals[h / 3], normals[twin / 3]));
   }
   return bend;
-}
-
-/// Calls `visit` with every half-edge that leaves a vertex.
-template <typename Visit>
-void for_each_outgoing(const TriMesh& mesh, Index vertex, const Visit& visit) {
-  const Index start = mesh.vertex_out[vertex];
-  Index h = start;
-  do {
-    visit(h);
-    h = mesh.rotate_ccw(h);
-  } while (h != kNone && h != start);
 }
 
 /// What the median bend around an edge exceeds that of a smooth, finely meshed surface by. The
@@ -70,10 +60,6 @@ class Roughness {
   double angle_;
   std::vector<float> bends_;
 };
-
-void set_feature(TriMesh& mesh, Index h, bool value) {
-  mesh.is_feature[h] = mesh.is_feature[mesh.twin[h]] = value ? 1 : 0;
-}
 
 Vec3 direction(const TriMesh& mesh, Index h) {
   return (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).stableNormalized();
@@ -143,83 +129,6 @@ class Bridges {
   std::vector<Index> degree_;
 };
 
-constexpr double kShortest = 0.02;  ///< length of a feature, share of the diagonal
-
-double edge_length(const TriMesh& mesh, Index h) {
-  return (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).norm();
-}
-
-/// Cuts off loose ends that are too short, until none is left.
-Index drop_loose_ends(TriMesh& mesh) {
-  std::vector<Index> degree = barrier_degrees(mesh);
-  std::vector<Index> ends;
-  for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    if (degree[v] == 1) ends.push_back(v);
-  }
-  Index dropped = 0;
-  std::vector<Index> branch;
-  while (!ends.empty()) {
-    Index v = ends.back();
-    ends.pop_back();
-    branch.clear();
-    double length = 0;
-    do {
-      Index onward = kNone;
-      for_each_outgoing(mesh, v, [&](Index h) {
-        const bool is_way_back = !branch.empty() && h == mesh.twin[branch.back()];
-        if (mesh.is_feature[h] != 0 && !is_way_back) onward = h;
-      });
-      if (onward == kNone) break;
-      branch.push_back(onward);
-      length += edge_length(mesh, onward);
-      v = mesh.to(onward);
-    } while (degree[v] == 2 && length < kShortest * mesh.diagonal);
-    // What ends loose on both sides is a piece of its own; the boundary holds what reaches it.
-    if (branch.empty() || length >= kShortest * mesh.diagonal || degree[v] < 3) continue;
-    if (mesh.is_boundary(mesh.vertex_out[v])) continue;
-    for (const Index h : branch) {
-      set_feature(mesh, h, false);
-      --degree[mesh.from(h)];
-      --degree[mesh.to(h)];
-    }
-    dropped += static_cast<Index>(branch.size());
-    if (degree[v] == 1) ends.push_back(v);
-  }
-  return dropped;
-}
-
-/// Takes the flags off connected pieces too short to be features.
-Index drop_short_pieces(TriMesh& mesh) {
-  const std::vector<Index> degree = barrier_degrees(mesh);
-  std::vector<std::uint8_t> seen(mesh.halfedge_count(), 0);
-  Index dropped = 0;
-  std::vector<Index> piece;
-  for (Index seed = 0; seed < mesh.halfedge_count(); ++seed) {
-    if (mesh.is_feature[seed] == 0 || seen[seed] != 0) continue;
-    piece.assign(1, seed);
-    seen[seed] = seen[mesh.twin[seed]] = 1;
-    double length = 0;
-    bool is_simple_loop = true;
-    bool meets_boundary = false;
-    for (std::size_t i = 0; i < piece.size(); ++i) {
-      length += edge_length(mesh, piece[i]);
-      for (const Index v : {mesh.from(piece[i]), mesh.to(piece[i])}) {
-        is_simple_loop = is_simple_loop && degree[v] == 2;
-        meets_boundary = meets_boundary || mesh.is_boundary(mesh.vertex_out[v]);
-        for_each_outgoing(mesh, v, [&](Index h) {
-          if (mesh.is_feature[h] == 0 || seen[h] != 0) return;
-          seen[h] = seen[mesh.twin[h]] = 1;
-          piece.push_back(h);
-        });
-      }
-    }
-    if (length >= kShortest * mesh.diagonal || is_simple_loop || meets_boundary) continue;
-    for (const Index h : piece) set_feature(mesh, h, false);
-    dropped += static_cast<Index>(piece.size());
-  }
-  return dropped;
-}
-
 }  // namespace
 
 FeatureCounts find_features(TriMesh& mesh, double angle_deg) {
@@ -232,17 +141,18 @@ FeatureCounts find_features(TriMesh& mesh, double angle_deg) {
     const std::vector<float> bend = bend_angles(mesh);
     Roughness roughness(mesh, bend, angle);
     std::vector<float> excess(bend.size(), 0);  // bend beyond the roughness, where it matters
+    std::vector<float> rough_at(bend.size(), 0);
     for (Index h = 0; h < mesh.halfedge_count(); ++h) {
       if (mesh.twin[h] == kNone || h > mesh.twin[h] || bend[h] <= kWeak * angle) continue;
       const double rough = roughness(h);
+      rough_at[h] = rough_at[mesh.twin[h]] = static_cast<float>(rough);
       excess[h] = excess[mesh.twin[h]] = static_cast<float>(bend[h] - rough);
       if (bend[h] - kRoughness * rough <= angle) continue;
       set_feature(mesh, h, true);
       ++counts.strong_edges;
     }
     counts.bridging_edges = Bridges(mesh, excess, kWeak * angle).run();
-    counts.dropped_edges = drop_loose_ends(mesh);
-    counts.dropped_edges += drop_short_pieces(mesh);
+    counts.dropped_edges = drop_noise(mesh, rough_at);
   }
   counts.edges = counts.strong_edges + counts.bridging_edges - counts.dropped_edges;
   counts.corners = find_corners(mesh);

@@ -7,7 +7,7 @@ namespace strake::import {
 struct FeatureCounts {
   Index strong_edges = 0;    ///< bent by more than the angle
   Index bridging_edges = 0;  ///< bent less, added between strong ones
-  Index dropped_edges = 0;   ///< of loose ends and pieces too short to be features
+  Index dropped_edges = 0;   ///< of what was noise
   Index edges = 0;           ///< in the end
   Index corners = 0;
 };
@@ -21,10 +21,8 @@ struct FeatureCounts {
 /// along edges bent by more than 0.6 of `angle_deg` (and the roughness), but only as far as another
 /// crease or the boundary.
 ///
-/// Loose ends shorter than 2 % of the diagonal are cut off, and connected pieces with a total
-/// length below that are dropped as noise, except for simple closed lines and what reaches the
-/// boundary. The normal of a sliver, which rounding of the coordinates may have turned, is taken
-/// from the neighbour across a long edge.
+/// What is noise then is dropped, as `drop_noise` states. The normal of a sliver, which rounding of
+/// the coordinates may have turned, is taken from the neighbour across a long edge.
 ///
 /// Corners are the vertices where other than two feature or boundary edges meet, or where such a
 /// line turns by more than 50 degrees, measured over 1 % of the diagonal on each side (along a

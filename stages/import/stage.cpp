@@ -10,7 +10,7 @@ namespace strake {
 Stage import_stage() {
   Stage stage;
   stage.name = "import";
-  stage.version = 1;
+  stage.version = 2;
   stage.summary = "Turns a mesh file into a sound triangle mesh with its feature graph.";
   stage.inputs = {{"input", PortKind::polygons, "mesh file: OBJ, PLY, OFF or STL"}};
   stage.output = {"mesh", PortKind::mesh, "mesh artifact to write, .hdf"};

@@ -1,0 +1,209 @@
+#include "stages/import/feature_noise.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "stages/import/feature_graph.h"
+
+namespace strake::import {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kRoughGround = 2 * kDegree;
+constexpr double kJagged = 15 * kDegree;
+constexpr std::size_t kFewestToJudge = 3;  ///< edges of a line whose turn can change
+constexpr std::size_t kFewestEdges = 8;
+constexpr std::size_t kAroundOneFace = 3;
+
+Vec3 edge_vector(const TriMesh& mesh, Index h) {
+  return mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)];
+}
+
+/// The rotation that turns one direction into another, as axis times angle.
+Vec3 turn_between(const Vec3& a, const Vec3& b) {
+  const Vec3 axis = a.cross(b);
+  const double sine = axis.norm();
+  return sine > 0 ? Vec3(axis * (std::atan2(sine, a.dot(b)) / sine)) : Vec3(Vec3::Zero());
+}
+
+/// Half of what the turn of a line changes by from vertex to vertex, averaged over its length.
+/// \param line  half-edges, each starting where the one before ends
+double jaggedness(const TriMesh& mesh, const std::vector<Index>& line) {
+  const std::size_t count = line.size();
+  const bool is_closed = mesh.to(line.back()) == mesh.from(line.front());
+  std::vector<Vec3> turns(count, Vec3::Zero());  // at the start of each edge
+  for (std::size_t i = is_closed ? 0 : 1; i < count; ++i) {
+    turns[i] = turn_between(edge_vector(mesh, line[(i + count - 1) % count]),
+                            edge_vector(mesh, line[i]));
+  }
+  double changes = 0;
+  double length = 0;
+  for (std::size_t i = is_closed ? 0 : 1; i < (is_closed ? count : count - 1); ++i) {
+    const double weight = edge_vector(mesh, line[i]).norm();
+    changes += weight * 0.5 * (turns[(i + 1) % count] - turns[i]).norm();
+    length += weight;
+  }
+  return length > 0 ? changes / length : 0;
+}
+
+/// The feature edge that leads on from `h` where just two meet; kNone elsewhere.
+Index next_on_line(const TriMesh& mesh, const std::vector<Index>& degree, Index h) {
+  Index onward = kNone;
+  if (degree[mesh.to(h)] != 2) return kNone;
+  for_each_outgoing(mesh, mesh.to(h), [&](Index e) {
+    if (mesh.is_feature[e] != 0 && e != mesh.twin[h]) onward = e;
+  });
+  return onward;
+}
+
+/// Mean of the roughness along a line.
+double mean_roughness(const TriMesh& mesh, const std::vector<float>& roughness,
+                      const std::vector<Index>& line) {
+  double sum = 0;
+  double length = 0;
+  for (const Index h : line) {
+    const double weight = edge_vector(mesh, h).norm();
+    sum += weight * roughness[h];
+    length += weight;
+  }
+  return length > 0 ? sum / length : 0;
+}
+
+/// Takes the flags off lines between nodes, and closed ones, that are noise.
+class NoisyLines {
+ public:
+  NoisyLines(TriMesh& mesh, const std::vector<float>& roughness)
+      : mesh_(mesh),
+        roughness_(roughness),
+        degree_(barrier_degrees(mesh)),
+        seen_(mesh.halfedge_count(), 0) {}
+
+  /// \return edges dropped; lines that joined where others went are for another run
+  Index drop() {
+    Index dropped = 0;
+    for (const bool closed : {false, true}) {
+      for (Index h = 0; h < mesh_.halfedge_count(); ++h) {
+        if (mesh_.is_feature[h] == 0 || seen_[h] != 0) continue;
+        if (!closed && degree_[mesh_.from(h)] == 2) continue;
+        collect(h);
+        if (!is_noise()) continue;
+        for (const Index e : line_) set_feature(mesh_, e, false);
+        dropped += static_cast<Index>(line_.size());
+      }
+    }
+    return dropped;
+  }
+
+ private:
+  void collect(Index start) {
+    line_.clear();
+    for (Index h = start; h != kNone && seen_[h] == 0; h = next_on_line(mesh_, degree_, h)) {
+      seen_[h] = seen_[mesh_.twin[h]] = 1;
+      line_.push_back(h);
+    }
+  }
+
+  [[nodiscard]] bool is_noise() const {
+    const Index first = mesh_.from(line_.front());
+    const Index last = mesh_.to(line_.back());
+    if (first == last && line_.size() == kAroundOneFace) return true;
+    if (mean_roughness(mesh_, roughness_, line_) <= kRoughGround) return false;
+    const bool is_held = first != last && degree_[first] > 1 && degree_[last] > 1;
+    if (!is_held && line_.size() < kFewestEdges) return true;
+    return line_.size() >= kFewestToJudge && jaggedness(mesh_, line_) > kJagged;
+  }
+
+  TriMesh& mesh_;
+  const std::vector<float>& roughness_;
+  std::vector<Index> degree_;
+  std::vector<std::uint8_t> seen_;  ///< [3F]
+  std::vector<Index> line_;         ///< half-edges, each starting where the one before ends
+};
+
+constexpr double kShortest = 0.02;  ///< length of a feature, share of the diagonal
+
+/// Cuts off loose ends that are too short, until none is left.
+Index drop_loose_ends(TriMesh& mesh) {
+  std::vector<Index> degree = barrier_degrees(mesh);
+  std::vector<Index> ends;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    if (degree[v] == 1) ends.push_back(v);
+  }
+  Index dropped = 0;
+  std::vector<Index> branch;
+  while (!ends.empty()) {
+    Index v = ends.back();
+    ends.pop_back();
+    branch.clear();
+    double length = 0;
+    do {
+      Index onward = kNone;
+      for_each_outgoing(mesh, v, [&](Index h) {
+        const bool is_way_back = !branch.empty() && h == mesh.twin[branch.back()];
+        if (mesh.is_feature[h] != 0 && !is_way_back) onward = h;
+      });
+      if (onward == kNone) break;
+      branch.push_back(onward);
+      length += edge_vector(mesh, onward).norm();
+      v = mesh.to(onward);
+    } while (degree[v] == 2 && length < kShortest * mesh.diagonal);
+    // What ends loose on both sides is a piece of its own; the boundary holds what reaches it.
+    if (branch.empty() || length >= kShortest * mesh.diagonal || degree[v] < 3) continue;
+    if (mesh.is_boundary(mesh.vertex_out[v])) continue;
+    for (const Index h : branch) {
+      set_feature(mesh, h, false);
+      --degree[mesh.from(h)];
+      --degree[mesh.to(h)];
+    }
+    dropped += static_cast<Index>(branch.size());
+    if (degree[v] == 1) ends.push_back(v);
+  }
+  return dropped;
+}
+
+/// Takes the flags off connected pieces too short to be features.
+Index drop_short_pieces(TriMesh& mesh) {
+  const std::vector<Index> degree = barrier_degrees(mesh);
+  std::vector<std::uint8_t> seen(mesh.halfedge_count(), 0);
+  Index dropped = 0;
+  std::vector<Index> piece;
+  for (Index seed = 0; seed < mesh.halfedge_count(); ++seed) {
+    if (mesh.is_feature[seed] == 0 || seen[seed] != 0) continue;
+    piece.assign(1, seed);
+    seen[seed] = seen[mesh.twin[seed]] = 1;
+    double length = 0;
+    bool is_simple_loop = true;
+    bool meets_boundary = false;
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      length += edge_vector(mesh, piece[i]).norm();
+      for (const Index v : {mesh.from(piece[i]), mesh.to(piece[i])}) {
+        is_simple_loop = is_simple_loop && degree[v] == 2;
+        meets_boundary = meets_boundary || mesh.is_boundary(mesh.vertex_out[v]);
+        for_each_outgoing(mesh, v, [&](Index h) {
+          if (mesh.is_feature[h] == 0 || seen[h] != 0) return;
+          seen[h] = seen[mesh.twin[h]] = 1;
+          piece.push_back(h);
+        });
+      }
+    }
+    if (length >= kShortest * mesh.diagonal || is_simple_loop || meets_boundary) continue;
+    for (const Index h : piece) set_feature(mesh, h, false);
+    dropped += static_cast<Index>(piece.size());
+  }
+  return dropped;
+}
+
+}  // namespace
+
+Index drop_noise(TriMesh& mesh, const std::vector<float>& roughness) {
+  Index dropped = 0;
+  while (const Index more = NoisyLines(mesh, roughness).drop()) dropped += more;
+  dropped += drop_loose_ends(mesh);
+  dropped += drop_short_pieces(mesh);
+  return dropped;
+}
+
+}  // namespace strake::import

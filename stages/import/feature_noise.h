@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "common/core/tri_mesh.h"
+
+namespace strake::import {
+
+/// Takes the feature flags off what is no line but noise.
+///
+/// A line is a run of feature edges between nodes, or closed. On rough ground (mean roughness along
+/// it above 2 degrees) it must be seen to have a course:
+/// - it is no line where it is jagged: averaged over its length, its turn from edge to edge, as a
+///   vector, changes by more than 2 x 15 degrees from one vertex to the next. The creases of a
+///   machined or carved part run on smoothly however they bend, and a circle or regular polygon
+///   turns evenly; what rough scans and coarse sampling leave runs to and fro.
+/// - closed or with a loose end it needs 8 edges; fewer do not tell.
+///
+/// On smooth ground every line is one, except what runs around a single face, a speck.
+///
+/// Then loose ends shorter than 2 % of the diagonal are cut off, and connected pieces with a total
+/// length below that are dropped, except for simple closed lines and what reaches the boundary.
+/// \param roughness  [3F] of feature edges, as `find_features` has it, radians
+/// \return edges whose flag was taken
+Index drop_noise(TriMesh& mesh, const std::vector<float>& roughness);
+
+}  // namespace strake::import
