@@ -49,6 +49,7 @@ std::string summary_text(const std::string& output, const PolyMesh& mesh, const 
   line("within 10 deg of own field", "alignment.within_10_deg_share", 100, "% of the edge length");
   line("smallest angle", "angles.min_deg", 1, "deg");
   line("concave faces", "faces.concave", 1, "");
+  line("crossing pairs of faces", "shape.self_intersecting_pairs", 1, "");
   return text;
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "common/geometry/face_crossings/face_crossings.h"
 #include "stages/evaluate/statistics.h"
 
 namespace strake::evaluation {
@@ -17,6 +18,7 @@ namespace {
 constexpr double kDegenerate = 1e-6;
 constexpr double kConcave = 1e-9;
 constexpr double kTJointAngle = 160;
+constexpr double kSmallAngle = 10;
 constexpr int kLargestValence = 8;
 
 /// The form of one face.
@@ -72,6 +74,7 @@ double off_plane(const PolyMesh& mesh, Index f, double area) {
 /// Lists of figures over all faces that have an area.
 struct Collection {
   Index degenerate = 0, concave = 0;
+  std::vector<double> least_angles;  // of each face
   std::vector<double> angles, quad_deviation, aspect, stretch, jacobian, off_plane;
 
   void add(const PolyMesh& mesh, Index f, double area) {
@@ -83,6 +86,7 @@ struct Collection {
     }
     if (is_concave_face(mesh.positions, mesh.face(f))) ++concave;
     angles.insert(angles.end(), form.angles.begin(), form.angles.end());
+    least_angles.push_back(smallest(form.angles));
     const std::size_t n = form.angles.size();
     if (n <= 4) {
       const double round = n == 3 ? std::numbers::sqrt3 : 1.0;
@@ -128,6 +132,8 @@ void report_sides(const PolyTopology& topology, const PolyMesh& mesh,
 
 void report_angles(const Collection& all, Report& report) {
   report.set("angles.min_deg", smallest(all.angles));
+  report.set("angles.face_share_above_10_deg",
+             all.least_angles.empty() ? 0.0 : 1 - share_below(all.least_angles, kSmallAngle));
   report.set("angles.p01_deg", quantile(all.angles, 0.01));
   report.set("angles.p05_deg", quantile(all.angles, 0.05));
   report.set("angles.median_deg", quantile(all.angles, 0.5));
@@ -171,6 +177,8 @@ void report_shape(const PolyMesh& mesh, const PolyTopology& topology,
   report_sides(topology, mesh, area, all, report);
   report_angles(all, report);
   report_proportions(all, report);
+  report.set("shape.self_intersecting_pairs",
+             static_cast<std::int64_t>(find_crossing_faces(mesh.positions, triangles).size()));
   report.set("edges.count", std::int64_t{topology.edges});
   report.set("edges.length_min", smallest(lengths));
   report.set("edges.length_mean", mean(lengths));

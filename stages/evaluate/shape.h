@@ -16,6 +16,9 @@ namespace strake::evaluation {
 /// the ratio of the mean lengths of opposite pairs of edges of a quad. `shape.jacobian` is the
 /// least sine of a quad's corners along its normal. `shape.off_plane` is the largest distance of a
 /// corner to the plane through the face's middle, over the root of its area.
+/// `angles.face_share_above_10_deg` is the share of faces whose smallest angle is above 10 degrees.
+/// `shape.self_intersecting_pairs` counts the pairs of faces that meet anywhere but in the corners
+/// and edges they share.
 void report_shape(const PolyMesh& mesh, const PolyTopology& topology,
                   const FaceTriangles& triangles, const PolyEdges& edges, Report& report);
 

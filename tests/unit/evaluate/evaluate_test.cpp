@@ -302,6 +302,23 @@ TEST(Evaluate, TJointConcaveAndDegenerateFacesAreCounted) {
   EXPECT_EQ(number(report, "topology.equal"), 0);
 }
 
+TEST(Evaluate, FacesThatCrossAndSmallAnglesAreCounted) {
+  const PolyMesh cube = shapes::cube(1, 1);
+  const Report whole = evaluated(shapes::reference(cube), cube);
+  EXPECT_EQ(number(whole, "shape.self_intersecting_pairs"), 0);
+  EXPECT_EQ(number(whole, "angles.face_share_above_10_deg"), 1);
+  // The four sides of a tower pass through the top of the cube.
+  const PolyMesh tower = shapes::moved(
+      cube, [](const Vec3& p) { return Vec3(p.x() / 9, p.y() / 9, 2 + 1.5 * p.z()); });
+  const Report both = evaluated(shapes::reference(cube), shapes::joined(cube, tower));
+  EXPECT_EQ(number(both, "shape.self_intersecting_pairs"), 4);
+  const PolyMesh sheared = shapes::moved(
+      shapes::square(1, 0), [](const Vec3& p) { return Vec3(p.x() + 6 * p.y(), p.y(), 0); });
+  const Report acute =
+      evaluated(shapes::reference(cube), shapes::joined(shapes::square(1, 2), sheared));
+  EXPECT_EQ(number(acute, "angles.face_share_above_10_deg"), 0.5);
+}
+
 TEST(Evaluate, TopologyThatDiffersIsNamed) {
   PolyMesh broken = shapes::torus(20, 10, 1, 0.3);
   std::reverse(broken.corners.begin(), broken.corners.begin() + 4);

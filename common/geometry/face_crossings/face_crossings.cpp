@@ -1,0 +1,154 @@
+#include "common/geometry/face_crossings/face_crossings.h"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "common/geometry/face_crossings/box_tree.h"
+#include "common/geometry/face_crossings/exact_predicates.h"
+
+namespace strake {
+namespace {
+
+using Triangle = std::array<Vec3, 3>;
+using FlatTriangle = std::array<Vec2, 3>;
+
+/// Drops a coordinate.
+struct Projection {
+  int axis = 0;
+
+  [[nodiscard]] Vec2 operator()(const Vec3& p) const {
+    return {p[(axis + 1) % 3], p[(axis + 2) % 3]};
+  }
+};
+
+/// A projection under which the triangle keeps an area; nothing where it has none.
+std::optional<Projection> projection_of(const Vec3& a, const Vec3& b, const Vec3& c) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const Projection flat{axis};
+    if (orientation(flat(a), flat(b), flat(c)) != 0) return flat;
+  }
+  return std::nullopt;
+}
+
+bool is_between(const Vec2& p, const Vec2& a, const Vec2& b) {
+  return (p.array() >= a.array().min(b.array())).all() &&
+         (p.array() <= a.array().max(b.array())).all();
+}
+
+bool segments_meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  const int abc = orientation(a, b, c);
+  const int abd = orientation(a, b, d);
+  const int cda = orientation(c, d, a);
+  const int cdb = orientation(c, d, b);
+  if (abc * abd < 0 && cda * cdb < 0) return true;
+  return (abc == 0 && is_between(c, a, b)) || (abd == 0 && is_between(d, a, b)) ||
+         (cda == 0 && is_between(a, c, d)) || (cdb == 0 && is_between(b, c, d));
+}
+
+bool is_inside(const Vec2& p, const FlatTriangle& t) {
+  const int u = orientation(t[0], t[1], p);
+  const int v = orientation(t[1], t[2], p);
+  const int w = orientation(t[2], t[0], p);
+  return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
+}
+
+bool segment_meets_in_plane(const Vec3& p, const Vec3& q, const Triangle& t) {
+  const Projection flat = projection_of(t[0], t[1], t[2]).value();
+  const FlatTriangle f = {flat(t[0]), flat(t[1]), flat(t[2])};
+  const Vec2 a = flat(p);
+  const Vec2 b = flat(q);
+  return is_inside(a, f) || segments_meet(a, b, f[0], f[1]) || segments_meet(a, b, f[1], f[2]) ||
+         segments_meet(a, b, f[2], f[0]);
+}
+
+bool segment_meets(const Vec3& p, const Vec3& q, const Triangle& t) {
+  const int side_p = orientation(t[0], t[1], t[2], p);
+  const int side_q = orientation(t[0], t[1], t[2], q);
+  if (side_p * side_q > 0) return false;
+  if (side_p == 0 && side_q == 0) return segment_meets_in_plane(p, q, t);
+  const int u = orientation(p, q, t[0], t[1]);
+  const int v = orientation(p, q, t[1], t[2]);
+  const int w = orientation(p, q, t[2], t[0]);
+  return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
+}
+
+/// Whether all of `t` lies strictly on one side of the plane of `plane`.
+bool is_apart(const Triangle& t, const Triangle& plane) {
+  const int side = orientation(plane[0], plane[1], plane[2], t[0]);
+  return side != 0 && orientation(plane[0], plane[1], plane[2], t[1]) == side &&
+         orientation(plane[0], plane[1], plane[2], t[2]) == side;
+}
+
+/// Whether triangles with a common edge lie flat on each other; `a` and `b` are their other
+/// corners.
+bool is_folded(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b) {
+  if (orientation(p, q, a, b) != 0) return false;
+  const Projection flat = projection_of(p, q, a).value();
+  return orientation(flat(p), flat(q), flat(a)) == orientation(flat(p), flat(q), flat(b));
+}
+
+}  // namespace
+
+bool triangles_cross(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b) {
+  int shared = 0;
+  std::array<int, 3> in_a = {0, 0, 0};
+  std::array<int, 3> in_b = {0, 0, 0};
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      if (a[i] != b[j]) continue;
+      in_a[shared] = i;
+      in_b[shared] = j;
+      ++shared;
+    }
+  }
+  if (shared == 3) return true;
+  if (shared == 2) {
+    return is_folded(a[in_a[0]], a[in_a[1]], a[3 - in_a[0] - in_a[1]], b[3 - in_b[0] - in_b[1]]);
+  }
+  if (shared == 1) {
+    return segment_meets(a[(in_a[0] + 1) % 3], a[(in_a[0] + 2) % 3], b) ||
+           segment_meets(b[(in_b[0] + 1) % 3], b[(in_b[0] + 2) % 3], a);
+  }
+  if (is_apart(a, b) || is_apart(b, a)) return false;
+  for (int i = 0; i < 3; ++i) {
+    if (segment_meets(a[i], a[(i + 1) % 3], b) || segment_meets(b[i], b[(i + 1) % 3], a)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::vector<std::array<Index, 2>> find_crossing_faces(const std::vector<Vec3>& positions,
+                                                      const FaceTriangles& triangles) {
+  std::vector<Triangle> shapes;
+  std::vector<Index> faces;
+  std::vector<BoxTree::Box> boxes;
+  for (std::size_t t = 0; t < triangles.corners.size(); ++t) {
+    const auto& [a, b, c] = triangles.corners[t];
+    const Triangle shape = {positions[a], positions[b], positions[c]};
+    if (!projection_of(shape[0], shape[1], shape[2])) continue;
+    shapes.push_back(shape);
+    faces.push_back(triangles.face[t]);
+    boxes.emplace_back(shape[0]);
+    boxes.back().extend(shape[1]).extend(shape[2]);
+  }
+  const BoxTree tree(std::move(boxes));
+  std::vector<std::vector<std::array<Index, 2>>> found(shapes.size());
+  tbb::parallel_for(Index{0}, static_cast<Index>(shapes.size()), [&](Index i) {
+    tree.visit_touching(tree.box(i), [&](Index j) {
+      if (j <= i || faces[i] == faces[j] || !triangles_cross(shapes[i], shapes[j])) return;
+      found[i].push_back({std::min(faces[i], faces[j]), std::max(faces[i], faces[j])});
+    });
+  });
+  std::vector<std::array<Index, 2>> pairs;
+  for (const auto& list : found) pairs.insert(pairs.end(), list.begin(), list.end());
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
+
+}  // namespace strake

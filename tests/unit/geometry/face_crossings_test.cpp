@@ -1,0 +1,156 @@
+#include "common/geometry/face_crossings/face_crossings.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <random>
+
+#include "common/geometry/face_crossings/exact_predicates.h"
+#include "common/geometry/samples/samples.h"
+
+namespace strake {
+namespace {
+
+using Triangle = std::array<Vec3, 3>;
+
+// Kettner et al. 2008: near the diagonal, steps of one unit in the last place; p is left of the
+// line through (12, 12) and (24, 24) where its y is larger. Plain doubles get hundreds of these
+// wrong.
+TEST(Orientation, OfAPointBesideALineIsExact) {
+  const double ulp = std::ldexp(1.0, -53);
+  for (int i = 0; i < 64; ++i) {
+    for (int j = 0; j < 64; ++j) {
+      const Vec2 p(0.5 + i * ulp, 0.5 + j * ulp);
+      EXPECT_EQ(orientation(Vec2(12, 12), Vec2(24, 24), p), (j > i) - (j < i)) << i << " " << j;
+    }
+  }
+}
+
+// The same in space: the plane x = y.
+TEST(Orientation, OfAPointBesideAPlaneIsExact) {
+  const double ulp = std::ldexp(1.0, -53);
+  const Vec3 a(12, 12, 0);
+  const Vec3 b(24, 24, 0);
+  const Vec3 c(7, 7, 31);
+  ASSERT_EQ(orientation(a, b, c, Vec3(0, 1, 0)), 1);
+  for (int i = 0; i < 64; ++i) {
+    for (int j = 0; j < 64; ++j) {
+      const Vec3 p(0.5 + i * ulp, 0.5 + j * ulp, 0.3);
+      EXPECT_EQ(orientation(a, b, c, p), (j > i) - (j < i)) << i << " " << j;
+    }
+  }
+}
+
+/// Triangles with a known relation, at random.
+class RandomTriangles {
+ public:
+  Vec3 point() { return Vec3(uniform(), uniform(), uniform()); }
+  Triangle triangle() { return {point(), point(), point()}; }
+  /// A triangle that has `p` inside, not on its border.
+  Triangle around(const Vec3& p) {
+    Triangle t = triangle();
+    const Vec3 weights = Vec3(1 + uniform(), 1 + uniform(), 1 + uniform()) + Vec3::Constant(0.1);
+    const Vec3 inside = (weights[0] * t[0] + weights[1] * t[1] + weights[2] * t[2]) / weights.sum();
+    for (Vec3& corner : t) corner += p - inside;
+    return t;
+  }
+
+ private:
+  double uniform() { return std::uniform_real_distribution<double>(-1, 1)(random_); }
+  std::mt19937_64 random_{7};
+};
+
+TEST(TrianglesCross, WhereTheyHaveAPointInCommon) {
+  RandomTriangles random;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 p = random.point();
+    const Triangle a = random.around(p);
+    const Triangle b = random.around(p);
+    EXPECT_TRUE(triangles_cross(a, b)) << i;
+    EXPECT_TRUE(triangles_cross(b, a)) << i;
+  }
+}
+
+TEST(TrianglesCross, NotWhereAPlaneSeparatesThem) {
+  RandomTriangles random;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 normal = random.point().normalized();
+    Triangle a = random.triangle();
+    Triangle b = random.triangle();
+    for (Vec3& p : a) p += (1e-3 + std::abs(p.dot(normal)) - p.dot(normal)) * normal;
+    for (Vec3& p : b) p -= (1e-3 + std::abs(p.dot(normal)) + p.dot(normal)) * normal;
+    EXPECT_FALSE(triangles_cross(a, b)) << i;
+  }
+}
+
+TEST(TrianglesCross, NotInTheirSharedCornersAndEdges) {
+  const Triangle a = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+  EXPECT_FALSE(triangles_cross(a, {Vec3(1, 0, 0), Vec3(0, 0, 0), Vec3(0, -1, 0)}));  // flat
+  EXPECT_FALSE(triangles_cross(a, {Vec3(1, 0, 0), Vec3(0, 0, 0), Vec3(0, 1, 1e-9)}));
+  EXPECT_FALSE(triangles_cross(a, {Vec3(0, 0, 0), Vec3(-1, 0, 0), Vec3(0, -1, 0)}));
+  EXPECT_FALSE(triangles_cross(a, {Vec3(0, 0, 0), Vec3(1, 1, 1), Vec3(1, 1, 2)}));
+}
+
+TEST(TrianglesCross, WhereTheyTouchOrLieOnEachOther) {
+  const Triangle a = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+  EXPECT_TRUE(triangles_cross(a, {Vec3(0.25, 0.25, 0), Vec3(0, 0, 1), Vec3(1, 0, 1)}));  // a corner
+  EXPECT_TRUE(triangles_cross(a, {Vec3(0.5, 0, 0), Vec3(0.5, -1, 1), Vec3(0.5, -1, -1)}));
+  EXPECT_TRUE(triangles_cross(a, {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.5, 0.25, 0)}));  // folded
+  EXPECT_TRUE(triangles_cross(a, {Vec3(0, 0, 0), Vec3(1, 1, 0), Vec3(1, 0.5, 0)}));  // in the plane
+  EXPECT_TRUE(triangles_cross(a, {Vec3(-1, -1, 0), Vec3(3, -1, 0), Vec3(-1, 3, 0)}));  // around it
+  EXPECT_TRUE(triangles_cross(a, {Vec3(0, 0, 0), Vec3(1, 1, 1), Vec3(1, 1, -1)}));
+  EXPECT_TRUE(triangles_cross(a, a));
+}
+
+PolyMesh torus() {
+  SampleOptions options;
+  options.faces = 3000;
+  return make_sample(SampleKind::torus, options);
+}
+
+TEST(CrossingFaces, AreNoneOnATorus) {
+  const PolyMesh mesh = torus();
+  EXPECT_TRUE(find_crossing_faces(mesh.positions, triangulate_faces(mesh)).empty());
+}
+
+TEST(CrossingFaces, AreThoseThatAllPairsGive) {
+  PolyMesh mesh = torus();
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> noise(0, 0.03);
+  for (Vec3& p : mesh.positions) p += Vec3(noise(random), noise(random), noise(random));
+  const FaceTriangles triangles = triangulate_faces(mesh);
+  std::vector<std::array<Index, 2>> expected;
+  const auto shape = [&](std::size_t t) -> Triangle {
+    const auto& [a, b, c] = triangles.corners[t];
+    return {mesh.positions[a], mesh.positions[b], mesh.positions[c]};
+  };
+  for (std::size_t s = 0; s < triangles.face.size(); ++s) {
+    for (std::size_t t = s + 1; t < triangles.face.size(); ++t) {
+      if (triangles_cross(shape(s), shape(t))) {
+        expected.push_back({triangles.face[s], triangles.face[t]});
+      }
+    }
+  }
+  ASSERT_GT(expected.size(), 10u);
+  for (const std::size_t threads : {1, 3}) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    EXPECT_EQ(find_crossing_faces(mesh.positions, triangles), expected);
+  }
+}
+
+TEST(CrossingFaces, AreOfDifferentFacesAndHaveAnArea) {
+  PolyMesh mesh;
+  // A quad that crosses itself, and a triangle through it without area, then with one.
+  mesh.positions = {{0, 0, 0},      {1, 0, 0},     {0, 1, 0}, {1, 1, 0},
+                    {0.5, 0.2, -1}, {0.5, 0.2, 1}, {5, 5, 1}};
+  mesh.add_face(std::vector<Index>{0, 1, 2, 3});
+  mesh.add_face(std::vector<Index>{4, 5, 4});
+  EXPECT_TRUE(find_crossing_faces(mesh.positions, triangulate_faces(mesh)).empty());
+  mesh.corners.back() = 6;
+  EXPECT_EQ(find_crossing_faces(mesh.positions, triangulate_faces(mesh)).size(), 1u);
+}
+
+}  // namespace
+}  // namespace strake
