@@ -153,11 +153,18 @@ std::optional<Chord> follow_chord(const PolygonGraph& graph, Index dart, std::si
   }
 }
 
-double split_gain(const PolygonGraph& graph, const Chord& chord, const EdgeLength& wanted) {
+double split_price(const PolygonGraph& graph, const Chord& chord, const EdgeLength& wanted) {
+  double price = 0;
+  for (const Index rung : chord.rungs) {
+    price += kSplitPrice * std::max(0.0, 2 - edge_ratio(graph, rung, wanted));
+  }
+  return price;
+}
+
+double split_gain(const PolygonGraph& graph, const Chord& chord) {
   double gain = 0;
   for (std::size_t k = 0; k < chord.rungs.size(); ++k) {
     const Index rung = chord.rungs[k];
-    gain -= kSplitPrice * std::max(0.0, 2 - edge_ratio(graph, rung, wanted));
     const Index in = k == 0 ? kNone : DartGraph::opposite(chord.rungs[k - 1]);
     gain += halving_gain(graph, in, rung);
     if (!(gain > kNever)) return kNever;
@@ -189,15 +196,20 @@ void split_strip(PolygonGraph& graph, const Chord& chord) {
   if (!chord.ends_outside) connect_across(behind);
 }
 
-double collapse_gain(const PolygonGraph& graph, const Chord& chord, const EdgeLength& wanted) {
+double collapse_price(const PolygonGraph& graph, const Chord& chord, const EdgeLength& wanted) {
+  double price = 0;
+  for (const Index rung : chord.rungs) {
+    const double ratio = edge_ratio(graph, rung, wanted);
+    price += kCollapsePrice * ratio * ratio;
+  }
+  return price;
+}
+
+double collapse_gain(const PolygonGraph& graph, const Chord& chord) {
   if (chord.ends_outside) return kNever;
   const std::optional<Moves> moves = merging_moves(graph, chord);
   if (!moves) return kNever;
   double gain = 0;
-  for (const Index rung : chord.rungs) {
-    const double ratio = edge_ratio(graph, rung, wanted);
-    gain -= kCollapsePrice * ratio * ratio;
-  }
   for (const Index cell : cells_at(graph, chord)) {
     const Polygon before = corner_positions(graph, graph.cell(cell));
     gain += std::min(penalty_now(before), kWorstShape);

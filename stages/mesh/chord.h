@@ -24,13 +24,18 @@ struct Chord {
 /// \return nothing where it crosses itself, is too long or ends at a larger face
 std::optional<Chord> follow_chord(const PolygonGraph& graph, Index dart, std::size_t most);
 
-/// By how much shape and size of the faces gain when the strip along the chord is split in two:
-/// lines that end in pentagons are prolonged. Minus infinity where a face would become concave.
-double split_gain(const PolygonGraph& graph, const Chord& chord, const EdgeLength& wanted);
+/// Price of splitting the strip along a chord in two: the higher, the narrower it is against the
+/// wanted length of its rungs. At least 0, about 0.3 for each rung of that length.
+double split_price(const PolygonGraph& graph, const Chord& chord, const EdgeLength& wanted);
+/// By how much the shapes of faces gain by it (see shape_penalty): lines that end in pentagons are
+/// prolonged. Minus infinity where a face would become concave.
+double split_gain(const PolygonGraph& graph, const Chord& chord);
 void split_strip(PolygonGraph& graph, const Chord& chord);
 
-/// As split_gain for taking the strip out: the lines on both sides of it become one.
-double collapse_gain(const PolygonGraph& graph, const Chord& chord, const EdgeLength& wanted);
+/// As for splitting, for taking the strip out: the lines on both sides of it become one. The
+/// price is the higher, the wider the strip; about 0.6 for each rung of the wanted length.
+double collapse_price(const PolygonGraph& graph, const Chord& chord, const EdgeLength& wanted);
+double collapse_gain(const PolygonGraph& graph, const Chord& chord);
 /// \return rungs contracted; fewer than there are where one would change the topology. The faces
 /// stay a sound mesh then, too.
 std::size_t collapse_strip(PolygonGraph& graph, const Chord& chord);

@@ -225,7 +225,6 @@ MeshResult mesh_lines(const TriMesh& mesh, const LineSet& lines, const MeshOptio
   report.set("mesh.divided_patches", static_cast<std::int64_t>(cells.paired.divided_patches));
   report.set("mesh.split_strips", static_cast<std::int64_t>(cells.paired.split_strips));
   report.set("mesh.collapsed_strips", static_cast<std::int64_t>(cells.paired.collapsed_strips));
-  report.set("mesh.turned_edges", static_cast<std::int64_t>(cells.paired.turned_edges));
   check_result(mesh, result.quads.mesh, static_cast<Index>(options.max_sides), report);
   return result;
 }

@@ -12,8 +12,10 @@ constexpr std::size_t kLongestChord = 24;
 /// Quads between two odd faces that are divided anew together with them.
 constexpr std::size_t kMostBetween = 2;
 constexpr double kLeastGain = 0.05;
+/// Shapes hardly gain more than two badly shaped odd faces cost.
+constexpr double kMostShapeGain = 2;
 
-enum class ChangeKind : std::uint8_t { pair_neighbours, turn_edge, split_strip, collapse_strip };
+enum class ChangeKind : std::uint8_t { divide_patch, split_strip, collapse_strip };
 
 /// A change that can be made, and what it changes: a patch or a chord.
 struct Change {
@@ -37,12 +39,11 @@ class Pairing {
   }
 
  private:
-  [[nodiscard]] std::size_t sides(Index dart) const { return graph_.cell(dart).size(); }
-  [[nodiscard]] bool is_odd(Index dart) const {
-    const std::size_t n = sides(dart);
-    return n == 3 || n == 5;
+  [[nodiscard]] std::size_t sides(Index dart) const {
+    std::size_t count = 1;
+    for (Index d = graph_.graph().next(dart); d != dart; d = graph_.graph().next(d)) ++count;
+    return count;
   }
-
   /// Everything worth doing, the best first.
   std::vector<Change> changes() {
     const DartGraph& g = graph_.graph();
@@ -57,8 +58,6 @@ class Pairing {
         for (const Index out : cell) add_chords(out, found);
         std::vector<Index> way = {d};
         add_patches(way, found);
-      } else if (cell.size() == 4) {
-        for (const Index out : cell) add_turn(out, found);
       }
     }
     std::stable_sort(found.begin(), found.end(),
@@ -71,11 +70,13 @@ class Pairing {
     if (!chord) return;
     // Both ways along a chord are found; boundaries are reached from one end only.
     const double bonus = price_ * (chord->ends_outside ? 1 : 2);
-    const double split = bonus + split_gain(graph_, *chord, wanted_);
-    if (split > kLeastGain) found.push_back({split, ChangeKind::split_strip, {}, {}, *chord});
-    const double collapse = bonus + collapse_gain(graph_, *chord, wanted_);
-    if (collapse > kLeastGain)
-      found.push_back({collapse, ChangeKind::collapse_strip, {}, {}, *chord});
+    const auto add = [&](ChangeKind kind, double price, const auto& shape_gain) {
+      if (price > bonus + kMostShapeGain) return;
+      const double gain = bonus - price + shape_gain(graph_, *chord);
+      if (gain > kLeastGain) found.push_back({gain, kind, {}, {}, *chord});
+    };
+    add(ChangeKind::split_strip, split_price(graph_, *chord, wanted_), split_gain);
+    add(ChangeKind::collapse_strip, collapse_price(graph_, *chord, wanted_), collapse_gain);
   }
 
   /// Patches that start with an odd face, go on over quads and end at another odd face.
@@ -86,7 +87,7 @@ class Pairing {
       const std::size_t n = sides(across);
       way.push_back(across);
       if (n == 3 || n == 5) {
-        add_patch(way, ChangeKind::pair_neighbours, 2 * price_, found);
+        add_patch(way, found);
       } else if (n == 4 && way.size() <= kMostBetween + 1) {
         add_patches(way, found);
       }
@@ -94,21 +95,14 @@ class Pairing {
     }
   }
 
-  void add_turn(Index out, std::vector<Change>& found) {
-    const Index across = DartGraph::opposite(out);
-    if (out > across || graph_.is_barrier(out) || graph_.is_hole(across) || sides(across) != 4) {
-      return;
-    }
-    add_patch({out, across}, ChangeKind::turn_edge, 0, found);
-  }
-
-  void add_patch(const std::vector<Index>& cells, ChangeKind kind, double bonus,
-                 std::vector<Change>& found) const {
+  void add_patch(const std::vector<Index>& cells, std::vector<Change>& found) const {
     std::optional<Patch> patch = join_cells(graph_, cells);
     if (!patch) return;
     std::optional<Division> division = best_division(graph_, *patch);
-    if (!division || !(division->gain + bonus > kLeastGain)) return;
-    found.push_back({division->gain + bonus, kind, std::move(*patch), std::move(*division), {}});
+    if (!division) return;
+    const double gain = division->gain + 2 * price_;
+    if (!(gain > kLeastGain)) return;
+    found.push_back({gain, ChangeKind::divide_patch, std::move(*patch), std::move(*division), {}});
   }
 
   /// Makes the changes that do not touch what an earlier one has changed. \return whether any
@@ -163,13 +157,9 @@ class Pairing {
 
   void apply(const Change& change) {
     switch (change.kind) {
-      case ChangeKind::pair_neighbours:
+      case ChangeKind::divide_patch:
         divide(graph_, change.patch, change.division);
         ++counts_.divided_patches;
-        break;
-      case ChangeKind::turn_edge:
-        divide(graph_, change.patch, change.division);
-        ++counts_.turned_edges;
         break;
       case ChangeKind::split_strip:
         split_strip(graph_, change.chord);

@@ -10,7 +10,6 @@ struct PairingCounts {
   Index divided_patches = 0;   ///< neighbouring odd faces made into quads
   Index split_strips = 0;      ///< lines prolonged from one odd face to another
   Index collapsed_strips = 0;  ///< pieces of lines taken back
-  Index turned_edges = 0;      ///< edges between quads that suit them better elsewhere
 };
 
 /// Makes faces of three and five sides into quads, two at a time: neighbours are divided anew; ones
