@@ -12,6 +12,7 @@
 #include "stages/mesh/pairing.h"
 #include "stages/mesh/partition.h"
 #include "stages/mesh/polygon_graph.h"
+#include "stages/mesh/pure_quads.h"
 #include "stages/mesh/simplify.h"
 
 namespace strake {
@@ -170,8 +171,15 @@ struct Cells {
   SimplifyCounts simplified;
   PartitionCounts divided;
   PairingCounts paired;
+  Index joined = 0;
   Index cut_pieces = 0;
 };
+
+/// Pure quads are made from faces of at most five sides.
+Index most_sides(const MeshOptions& options) {
+  const auto most = static_cast<Index>(options.max_sides);
+  return options.pure_quads ? std::min(most, Index{5}) : most;
+}
 
 Cells form_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions& options,
                  const std::vector<Index>& component, const std::vector<char>& starved,
@@ -181,16 +189,17 @@ Cells form_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions& o
   observer.report("forming cells", 0.4);
   const Index cuts = reduce_to_lines(overlay);
   observer.report("simplifying cells", 0.6);
-  Cells cells{PolygonGraph(mesh, overlay), {}, {}, {}, cuts};
+  Cells cells{PolygonGraph(mesh, overlay), {}, {}, {}, 0, cuts};
   cells.simplified = simplify(
       cells.graph, [&](const SurfaceNode& node) { return local_size(mesh, lines, node); },
       kShortestEdge);
   observer.report("dividing cells", 0.8);
-  cells.divided = partition(cells.graph, static_cast<Index>(options.max_sides));
+  cells.divided = partition(cells.graph, most_sides(options));
   observer.report("pairing odd faces", 0.9);
   cells.paired = pair_odd_faces(
       cells.graph, [&](Index dart) { return wanted_length(mesh, lines, cells.graph, dart); },
       options.odd_price);
+  if (options.pure_quads) cells.joined = join_odd_faces(cells.graph);
   return cells;
 }
 
@@ -225,7 +234,11 @@ MeshResult mesh_lines(const TriMesh& mesh, const LineSet& lines, const MeshOptio
   report.set("mesh.divided_patches", static_cast<std::int64_t>(cells.paired.divided_patches));
   report.set("mesh.split_strips", static_cast<std::int64_t>(cells.paired.split_strips));
   report.set("mesh.collapsed_strips", static_cast<std::int64_t>(cells.paired.collapsed_strips));
+  report.set("mesh.joined_odd_faces", static_cast<std::int64_t>(cells.joined));
   check_result(mesh, result.quads.mesh, static_cast<Index>(options.max_sides), report);
+  if (options.pure_quads && analyse(result.quads.mesh).quads != result.quads.mesh.face_count()) {
+    throw AlgorithmError("some faces could not be made quads; please report this model");
+  }
   return result;
 }
 

@@ -17,6 +17,10 @@ OptionList MeshOptions::declare() {
                "taken back to make quads; 0 leaves faces as the lines made them.",
        .min = 0,
        .max = 1000},
+      {.name = "pure-quads",
+       .target = &pure_quads,
+       .unit = "",
+       .help = "Make every face a quad, at the price of more vertices of valence 3 and 5."},
   };
 }
 

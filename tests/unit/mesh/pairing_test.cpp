@@ -9,6 +9,7 @@
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_topology.h"
 #include "common/geometry/samples/samples.h"
+#include "stages/mesh/pure_quads.h"
 #include "tests/support/chain.h"
 #include "tests/support/mesh_support.h"
 #include "tests/unit/mesh/graphs.h"
@@ -153,6 +154,38 @@ TEST(PairOddFaces, LeavesAllAsItIsForNoPrice) {
   EXPECT_EQ(sides(graph), before);
 }
 
+TEST(JoinOddFaces, TurnsWhereTwoPentagonsDoNotFaceEachOther) {
+  const TriMesh mesh = grid_mesh({steps(8), steps(8)});
+  PolygonGraph graph =
+      cells_of(mesh, [](const Vec3& a, const Vec3& b) { return !is_diagonal(a, b); });
+  const auto halve = [&](double x, double y) {
+    for (Index d = 0; d < graph.graph().dart_count(); ++d) {
+      if (!graph.graph().is_alive(d)) continue;
+      const Vec3 middle =
+          0.5 * (graph.position(graph.graph().from(d)) + graph.position(graph.graph().to(d))) +
+          mesh.origin;
+      if ((middle - Vec3(x, y, 0)).norm() > 1e-9) continue;
+      graph.split(d, 0.5);
+      return;
+    }
+  };
+  halve(2.5, 0);  // on the boundary
+  halve(7, 4.5);
+  ASSERT_EQ(sides(graph)[5], 2);
+  const auto boundary = [&] {
+    int edges = 0;
+    for (Index d = 0; d < graph.graph().dart_count(); ++d) {
+      if (graph.graph().is_alive(d) && graph.is_outer(d)) ++edges;
+    }
+    return edges;
+  };
+  const int before = boundary();
+  EXPECT_GE(join_odd_faces(graph), 1);
+  EXPECT_EQ(sides(graph).count(4), sides(graph).size()) << "only quads";
+  EXPECT_EQ(boundary() % 2, before % 2) << "a disk of quads has an even boundary";
+  EXPECT_TRUE(is_consistent(graph.graph()));
+}
+
 struct Share {
   Index quads = 0;
   Index concave = 0;
@@ -210,6 +243,9 @@ TEST_P(PairedSurfaces, HaveFewOddFacesNoMoreConcaveOnesAndTheirFeatures) {
   EXPECT_LE(1 - after.of_quads, 0.4 * (1 - before.of_quads));
   EXPECT_GE(after.of_quads, 0.96);
   EXPECT_LE(after.concave, before.concave);
+  const QuadMesh pure = support::mesh(prepared, lines, {.pure_quads = true});
+  EXPECT_EQ(share_of_quads(pure).of_quads, 1);
+  EXPECT_LE(pure.mesh.vertex_count(), 1.15 * paired.mesh.vertex_count());
   const auto features = on_features(prepared, paired);
   for (const auto& p : on_features(prepared, plain)) {
     EXPECT_TRUE(features.contains(p)) << "a vertex of a feature line is gone";
