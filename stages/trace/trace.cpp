@@ -66,12 +66,24 @@ std::vector<Seed> random_seeds(const TraceDomain& domain, std::int64_t random_se
   return result;
 }
 
+Seed seed_of(const Coverage::Gap& gap) {
+  Seed seed;
+  seed.face = gap.face;
+  seed.barycentric = gap.barycentric;
+  seed.direction = gap.direction;
+  seed.fills_gap = true;
+  return seed;
+}
+
 /// Traces seeds first come, first served, and collects the lines.
 class LineCollector {
  public:
   LineCollector(const TraceDomain& domain, const std::vector<std::uint8_t>& barriers,
                 const TracerSettings& settings, Observer& observer)
-      : domain_(domain), tracer_(domain, barriers, settings), observer_(observer) {}
+      : domain_(domain),
+        settings_(settings),
+        tracer_(domain, barriers, settings),
+        observer_(observer) {}
 
   LineTracer& tracer() { return tracer_; }
   LineSet& lines() { return lines_; }
@@ -111,20 +123,30 @@ class LineCollector {
     phase_ = "filling gaps";
     for (Index f = 0; f < domain_.mesh.face_count(); ++f) {
       tracer_.coverage().for_gaps(f, [&](const Coverage::Gap& gap) {
-        Seed seed;
-        seed.face = gap.face;
-        seed.barycentric = gap.barycentric;
-        seed.direction = gap.direction;
-        seed.fills_gap = true;
-        grow({centred(domain_, seed, tracer_.proximity())});
+        grow({centred(domain_, seed_of(gap), tracer_.proximity())});
       });
     }
+  }
+
+  /// Largest distance of a place from the nearest line of each direction of its cross, in wanted
+  /// distances. Only what no line has covered needs a look: the rest is nearer than it is covered.
+  double largest_gap() {
+    double largest = settings_.cover_fraction;
+    for (Index f = 0; f < domain_.mesh.face_count(); ++f) {
+      tracer_.coverage().for_gaps(f, [&](const Coverage::Gap& gap) {
+        const LineGap beside =
+            gap_beside(domain_, start_head(domain_, seed_of(gap), true), tracer_.proximity());
+        largest = std::max(largest, std::min(beside.to_left, beside.to_right) / beside.wanted);
+      });
+    }
+    return largest;
   }
 
   [[nodiscard]] std::size_t tried() const { return tried_; }
 
  private:
   const TraceDomain& domain_;
+  TracerSettings settings_;
   LineTracer tracer_;
   Observer& observer_;
   LineSet lines_;
@@ -196,6 +218,7 @@ TraceResult trace_lines(const TriMesh& mesh, const PrincipalField& field,
   result.report.set("trace.feature_and_boundary_lines", barriers.size());
   result.report.set("trace.closed_lines", static_cast<std::int64_t>(closed));
   result.report.set("trace.crossings", result.lines.points.size());
+  result.report.set("trace.largest_gap", collector.largest_gap());
   result.report.set("trace.seeds_tried", collector.tried());
   result.report.set("trace.proximity_queries",
                     static_cast<std::int64_t>(collector.tracer().proximity().query_count()));

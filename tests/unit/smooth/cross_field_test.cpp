@@ -36,8 +36,8 @@ double index_sum(const TriMesh& mesh, const PrincipalField& field) {
     std::array<std::complex<double>, 3> power;
     for (int i = 0; i < 3; ++i) {
       const Index w = mesh.face_wedges[f][i];
-      power[i] = cross_power(frame.tangent_from_world(
-          rotate_between(field.normal[w], normals[f], field.cross[w])));
+      power[i] = cross_power(
+          frame.tangent_from_world(rotate_between(field.normal[w], normals[f], field.cross[w])));
     }
     for (int i = 0; i < 3; ++i) {
       sum += std::arg(power[(i + 1) % 3] * std::conj(power[i])) / (8 * M_PI);
@@ -114,7 +114,8 @@ TEST_F(CrossOnATube, FollowsWidePatches) {
   extend();
   for (Index w = 0; w < mesh_.wedge_count(); ++w) {
     const Vec3& p = mesh_.positions[mesh_.wedge_vertex[w]];
-    if (std::abs(p.x()) < 6 * length || std::abs(p.z()) > kCylinderHalfHeight - 6 * length) continue;
+    if (std::abs(p.x()) < 6 * length || std::abs(p.z()) > kCylinderHalfHeight - 6 * length)
+      continue;
     EXPECT_NEAR(error(w), p.x() > 0 ? 40 * kDegree : 0, 2 * kDegree);
   }
 }
@@ -133,7 +134,8 @@ TEST(CrossField, IndicesAddUpToTheEulerCharacteristic) {
 /// Vertices are off the surface by 3 % of an edge. The mean error of the tensors' own directions is
 /// the bound: extending them must not lose any of that where they are clear.
 TEST(CrossField, IsNoWorseThanTheTensorsOnNoisySurfaces) {
-  for (const SampleKind kind : {SampleKind::torus, SampleKind::ellipsoid, SampleKind::hyperboloid}) {
+  for (const SampleKind kind :
+       {SampleKind::torus, SampleKind::ellipsoid, SampleKind::hyperboloid}) {
     SCOPED_TRACE(sample_names()[static_cast<std::size_t>(kind)]);
     const support::AnalyticSurface surface = support::analytic_surface(kind);
     const PolyMesh soup = noisy_sample(kind, 1e-3);
@@ -146,8 +148,7 @@ TEST(CrossField, IsNoWorseThanTheTensorsOnNoisySurfaces) {
     double of_tensors = 0;
     double count = 0;
     for (Index w = 0; w < prepared.mesh.wedge_count(); ++w) {
-      const Vec3 p =
-          prepared.mesh.positions[prepared.mesh.wedge_vertex[w]] + prepared.mesh.origin;
+      const Vec3 p = prepared.mesh.positions[prepared.mesh.wedge_vertex[w]] + prepared.mesh.origin;
       const support::ExactCurvature exact = surface.at(p);
       if (exact.anisotropy() < 0.3) continue;
       of_cross += angle_to_cross(prepared.field, w, exact.t_min);

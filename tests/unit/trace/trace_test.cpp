@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
 #include <random>
 
 #include "common/core/error.h"
@@ -112,6 +114,60 @@ TEST_P(TraceSamples, LinesKeepToTheSurfaceWithThePapersField) {
   smooth.extension = "paper";
   const support::Prepared prepared = support::prepare(make_sample(GetParam(), sample), {}, smooth);
   EXPECT_GT(expect_lines_on_surface(prepared.mesh, support::trace(prepared)), 100);
+}
+
+double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 d = b - a;
+  const double t = std::clamp((p - a).dot(d) / std::max(d.squaredNorm(), 1e-300), 0.0, 1.0);
+  return (a + t * d - p).norm();
+}
+
+/// Largest distance, over the wedges and both arms of their crosses, from the nearest chord that
+/// follows that arm, in wanted distances; by looking at all chords.
+double largest_gap(const support::Prepared& prepared, const LineSet& lines) {
+  const TriMesh& mesh = prepared.mesh;
+  const PrincipalField& field = prepared.field;
+  double largest = 0;
+  for (Index w = 0; w < mesh.wedge_count(); w += 3) {
+    const Vec3& p = mesh.positions[mesh.wedge_vertex[w]];
+    const Vec3& along = field.cross[w];
+    const Vec3 across = field.normal[w].cross(along);
+    double to_along = std::numeric_limits<double>::infinity();
+    double to_across = to_along;
+    for (Index l = 0; l < lines.line_count(); ++l) {
+      const Index first = lines.offsets[l];
+      const Index last = lines.offsets[l + 1];
+      for (Index i = first; i < last; ++i) {
+        if (i + 1 == last && !lines.is_closed(l)) continue;
+        const Vec3 a = line_point_position(mesh, lines.points[i]);
+        const Vec3 b = line_point_position(mesh, lines.points[i + 1 < last ? i + 1 : first]);
+        double& nearest =
+            std::abs((b - a).dot(along)) >= std::abs((b - a).dot(across)) ? to_along : to_across;
+        nearest = std::min(nearest, distance_to_segment(p, a, b));
+      }
+    }
+    largest = std::max(
+        {largest, to_along / lines.spacing_along_max[w], to_across / lines.spacing_along_min[w]});
+  }
+  return largest;
+}
+
+/// Saturation: a strip wider than 1.9 wanted distances gets a line in its middle, so nothing is
+/// farther than 0.95 from a line; 5 % are for strips that narrow on the way.
+TEST_P(TraceSamples, LinesReachEverywhere) {
+  SampleOptions sample;
+  sample.faces = 8000;
+  const support::Prepared prepared = support::prepare(make_sample(GetParam(), sample));
+  TraceOptions options;
+  options.vertices = 500;
+  SilentObserver observer;
+  const TraceResult result = trace_lines(prepared.mesh, prepared.field, options, observer);
+  EXPECT_LT(largest_gap(prepared, result.lines), 1);
+  for (const auto& [key, value] : result.report.entries()) {
+    if (key == "trace.largest_gap") {
+      EXPECT_LT(std::get<double>(value), 1);
+    }
+  }
 }
 
 TEST(Trace, EndsAndKeepsToTheSurfaceInAMeaninglessField) {
