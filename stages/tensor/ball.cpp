@@ -71,8 +71,8 @@ double clipped_area(const Vec3& a, const Vec3& b, const Vec3& c, double r) {
 }
 
 BallWalker::BallWalker(const TriMesh& mesh, const std::vector<Vec3>& normals,
-                       const std::vector<float>& beta)
-    : mesh_(mesh), normals_(normals), beta_(beta), stamp_(mesh.face_count(), 0) {}
+                       const std::vector<float>& bend)
+    : mesh_(mesh), normals_(normals), bend_(bend), stamp_(mesh.face_count(), 0) {}
 
 void BallWalker::visit(Index face) {
   if (is_visited(face)) return;
@@ -97,21 +97,25 @@ std::array<double, 6> BallWalker::tensor(Index h, const Vec3& normal, double rad
     const auto& v = mesh_.faces[f];
     const std::array<Vec3, 3> p = {mesh_.positions[v[0]] - centre, mesh_.positions[v[1]] - centre,
                                    mesh_.positions[v[2]] - centre};
-    area += clipped_area(p[0], p[1], p[2], radius);
+    const std::array<bool, 3> inside = {p[0].squaredNorm() <= r2, p[1].squaredNorm() <= r2,
+                                        p[2].squaredNorm() <= r2};
+    // Most faces lie inside as a whole; nothing of them needs to be clipped.
+    area += inside[0] && inside[1] && inside[2] ? 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).norm()
+                                                : clipped_area(p[0], p[1], p[2], radius);
     for (int i = 0; i < 3; ++i) {
       const Index e = 3 * f + i;
       if (mesh_.is_barrier(e)) continue;
-      const Vec3& a = p[i];
-      const Vec3& b = p[(i + 1) % 3];
-      if (squared_distance_to_segment(a, b) >= r2) continue;
-      const Index other = TriMesh::face_of(mesh_.twin[e]);
+      const int j = (i + 1) % 3;
+      const bool whole = inside[i] && inside[j];
+      if (!inside[i] && !inside[j] && squared_distance_to_segment(p[i], p[j]) >= r2) continue;
+      const Index twin = mesh_.twin[e];
+      const Index other = TriMesh::face_of(twin);
       if (normals_[other].dot(normal) <= 0) continue;  // folds over to another sheet
       visit(other);
-      if (e > mesh_.twin[e]) continue;  // each edge once: both its faces are visited
-      const Vec3 d = b - a;
-      const double length2 = d.squaredNorm();
-      if (!(length2 > 0)) continue;
-      const double weight = beta_[e] * clipped_length(a, b, radius) / length2;
+      if (e > twin) continue;  // each edge once: both its faces are visited
+      const Vec3 d = p[j] - p[i];
+      double weight = bend_[e];
+      if (!whole) weight *= clipped_length(p[i], p[j], radius) / d.norm();
       sum[0] += weight * d.x() * d.x();
       sum[1] += weight * d.x() * d.y();
       sum[2] += weight * d.x() * d.z();

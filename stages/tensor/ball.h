@@ -16,8 +16,9 @@ double clipped_area(const Vec3& a, const Vec3& b, const Vec3& c, double r);
 /// Sums normal cycles over mesh-connected balls; keeps its work arrays between calls.
 class BallWalker {
  public:
-  /// \param normals [F] unit;  \param beta [3F] signed dihedral angles, 0 on barriers
-  BallWalker(const TriMesh& mesh, const std::vector<Vec3>& normals, const std::vector<float>& beta);
+  /// \param normals [F] unit;  \param bend [3F] signed dihedral angle over the
+  /// length of the edge, 0 on barriers
+  BallWalker(const TriMesh& mesh, const std::vector<Vec3>& normals, const std::vector<float>& bend);
 
   /// The tensor (xx, xy, xz, yy, yz, zz) of the ball around the corner `h`, reached from its wedge
   /// without crossing features or faces that turn away from `normal`.
@@ -29,7 +30,7 @@ class BallWalker {
 
   const TriMesh& mesh_;
   const std::vector<Vec3>& normals_;
-  const std::vector<float>& beta_;
+  const std::vector<float>& bend_;
   std::vector<std::uint32_t> stamp_;
   std::uint32_t current_ = 0;
   std::vector<Index> front_;
