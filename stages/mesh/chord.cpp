@@ -153,6 +153,15 @@ std::optional<Chord> follow_chord(const PolygonGraph& graph, Index dart, std::si
   }
 }
 
+bool can_halve(const PolygonGraph& graph, Index dart) {
+  const DartGraph& g = graph.graph();
+  const Index other = DartGraph::opposite(dart);
+  if (graph.is_outer(other) || graph.cell(dart).size() != 5 || graph.cell(other).size() != 5) {
+    return true;
+  }
+  return g.to(g.next(g.next(dart))) != g.to(g.next(g.next(other)));
+}
+
 double split_price(const PolygonGraph& graph, const Chord& chord, const EdgeLength& wanted) {
   double price = 0;
   for (const Index rung : chord.rungs) {
@@ -162,6 +171,7 @@ double split_price(const PolygonGraph& graph, const Chord& chord, const EdgeLeng
 }
 
 double split_gain(const PolygonGraph& graph, const Chord& chord) {
+  if (chord.rungs.size() == 1 && !can_halve(graph, chord.rungs.front())) return kNever;
   double gain = 0;
   for (std::size_t k = 0; k < chord.rungs.size(); ++k) {
     const Index rung = chord.rungs[k];

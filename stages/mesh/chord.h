@@ -24,6 +24,10 @@ struct Chord {
 /// \return nothing where it crosses itself, is too long or ends at a larger face
 std::optional<Chord> follow_chord(const PolygonGraph& graph, Index dart, std::size_t most);
 
+/// Whether an edge can be halved and its middle joined to the corners across from it in the two odd
+/// faces beside it: not where both are pentagons with the same corner there.
+bool can_halve(const PolygonGraph& graph, Index dart);
+
 /// Price of splitting the strip along a chord in two: the higher, the narrower it is against the
 /// wanted length of its rungs. At least 0, about 0.3 for each rung of that length.
 double split_price(const PolygonGraph& graph, const Chord& chord, const EdgeLength& wanted);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "stages/mesh/cell_shape.h"
+#include "stages/mesh/chord.h"
 
 namespace strake {
 namespace {
@@ -41,7 +42,9 @@ std::vector<Index> cheapest_way(const PolygonGraph& graph, Index start) {
     if (!before.try_emplace(dart, previous).second) return;
     open.push({price + (graph.is_barrier(dart) ? kBarrier : 0), dart});
   };
-  for (const Index d : graph.cell(start)) push(kStraight, d, kNone);
+  for (const Index d : graph.cell(start)) {
+    if (can_halve(graph, d)) push(kStraight, d, kNone);
+  }
   while (!open.empty()) {
     const auto [price, dart] = open.top();
     open.pop();

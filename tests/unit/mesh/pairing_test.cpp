@@ -145,6 +145,67 @@ TEST(PairOddFaces, JoinsTwoTriangles) {
   EXPECT_EQ(sides(triangles), sides(whole));
 }
 
+bool has_double_edge(const PolygonGraph& graph) {
+  std::set<std::pair<Index, Index>> seen;
+  for (Index d = 0; d < graph.graph().dart_count(); ++d) {
+    if (!graph.graph().is_alive(d)) continue;
+    if (!seen.emplace(graph.graph().from(d), graph.graph().to(d)).second) return true;
+  }
+  return false;
+}
+
+TEST(PairOddFaces, NeverJoinsTwoNodesTwice) {
+  // Two pentagons at a common edge a b, with the same node x across from it; two quads between them
+  // close the surface.
+  PolyMesh soup;
+  soup.positions = {{-1, 0, 0}, {1, 0, 0},   {0, 3, 0}, {-1, 2, 1},
+                    {1, 2, 1},  {-1, 2, -1}, {1, 2, -1}};
+  const Index a = 0, b = 1, x = 2, p = 3, q = 4, r = 5, s = 6;
+  for (const auto& triangle : std::vector<std::array<Index, 3>>{{a, b, q},
+                                                                {a, q, x},
+                                                                {a, x, p},
+                                                                {b, a, r},
+                                                                {b, r, x},
+                                                                {b, x, s},
+                                                                {p, x, r},
+                                                                {p, r, a},
+                                                                {q, b, s},
+                                                                {q, s, x}}) {
+    soup.add_face(triangle);
+  }
+  const TriMesh mesh = support::plain_tri_mesh(soup);
+  const std::set<std::pair<Index, Index>> inner = {{a, q}, {a, x}, {b, r}, {b, x}, {p, r}, {q, s}};
+  const auto vertex = [&](const Vec3& at) {
+    return static_cast<Index>(std::min_element(soup.positions.begin(), soup.positions.end(),
+                                               [&](const Vec3& one, const Vec3& two) {
+                                                 return (one - at).norm() < (two - at).norm();
+                                               }) -
+                              soup.positions.begin());
+  };
+  PolygonGraph graph = cells_of(mesh, [&](const Vec3& from, const Vec3& to) {
+    return !inner.contains(std::minmax(vertex(from), vertex(to)));
+  });
+  for (Index d = 0, end = graph.graph().dart_count(); d < end; d += 2) {
+    const bool beside_x = vertex(graph.position(graph.graph().from(d)) + mesh.origin) == x ||
+                          vertex(graph.position(graph.graph().to(d)) + mesh.origin) == x;
+    if (beside_x) graph.split(d, 0.5);  // p to s again, which were no ends of edges
+  }
+  ASSERT_EQ(sides(graph), (std::map<std::size_t, int>{{4, 2}, {5, 2}}));
+  for (Index d = 0; d < graph.graph().dart_count(); ++d) {
+    if (!graph.graph().is_alive(d)) continue;
+    const Index across = DartGraph::opposite(d);
+    const bool both = graph.cell(d).size() == 5 && graph.cell(across).size() == 5;
+    EXPECT_EQ(can_halve(graph, d), !both);
+  }
+  PolygonGraph pure = graph;
+  pair_odd_faces(
+      graph, [](Index) { return 0.1; }, 100);
+  EXPECT_FALSE(has_double_edge(graph));
+  join_odd_faces(pure);
+  EXPECT_EQ(sides(pure).count(4), sides(pure).size());
+  EXPECT_FALSE(has_double_edge(pure));
+}
+
 TEST(PairOddFaces, LeavesAllAsItIsForNoPrice) {
   const TriMesh mesh = grid_mesh({steps(6), steps(6)});
   const auto all = [](const Vec3&, const Vec3&) { return true; };
