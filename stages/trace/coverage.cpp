@@ -10,6 +10,7 @@ namespace {
 /// Distance of samples inside large faces, in line distances.
 constexpr double kSampleDistance = 0.8;
 constexpr int kMostSamplesPerFace = 20000;
+constexpr std::uint8_t kBothArms = 3;  ///< the bits of arm_bit
 
 /// Bit of the arm of a cross that a direction follows.
 std::uint8_t arm_bit(const Vec3& arm, const Vec3& flat) {
@@ -87,8 +88,9 @@ void Coverage::mark(const std::vector<Index>& faces, const Vec3& point, const Ve
   const double limit = distance * distance;
   for (const Index f : faces) {
     for (int i = 0; i < 3; ++i) {
-      if ((mesh.positions[mesh.faces[f][i]] - point).squaredNorm() > limit) continue;
       const Index w = mesh.face_wedges[f][i];
+      if (wedge_marks_[w] == kBothArms) continue;
+      if ((mesh.positions[mesh.faces[f][i]] - point).squaredNorm() > limit) continue;
       const Vec3& normal = domain_.field.normal[w];
       const Vec3 flat = direction - normal * normal.dot(direction);
       wedge_marks_[w] |= arm_bit(domain_.field.cross[w], flat);

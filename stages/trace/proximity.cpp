@@ -1,6 +1,7 @@
 #include "stages/trace/proximity.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace strake {
@@ -55,13 +56,21 @@ void ProximityIndex::grow_cell(Index face, const Vec3& point, double radius) {
   stamp_[face] = current_;
   const double limit = radius * radius;
   for (std::size_t at = 0; at < cell_.size(); ++at) {
-    for (Index h = 3 * cell_[at]; h < 3 * cell_[at] + 3; ++h) {
+    const Index f = cell_[at];
+    std::array<const Vec3*, 3> corner{};
+    std::array<bool, 3> within{};
+    for (int i = 0; i < 3; ++i) {
+      corner[i] = &mesh_.positions[mesh_.faces[f][i]];
+      within[i] = (*corner[i] - point).squaredNorm() <= limit;
+    }
+    for (int i = 0; i < 3; ++i) {
+      const Index h = 3 * f + i;
       if (barriers_[h] != 0) continue;
       const Index other = TriMesh::face_of(mesh_.twin[h]);
       if (stamp_[other] == current_) continue;
-      // The edge, not its end points: large faces have none within reach.
-      if (squared_distance(point, mesh_.positions[mesh_.from(h)], mesh_.positions[mesh_.to(h)]) >
-          limit) {
+      // The edge, not its end points alone: large faces have none within reach.
+      const int j = (i + 1) % 3;
+      if (!within[i] && !within[j] && squared_distance(point, *corner[i], *corner[j]) > limit) {
         continue;
       }
       stamp_[other] = current_;
