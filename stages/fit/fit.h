@@ -1,5 +1,6 @@
 #pragma once
 
+#include "common/core/fields.h"
 #include "common/core/observer.h"
 #include "common/core/options.h"
 #include "common/core/poly_mesh.h"
@@ -9,7 +10,7 @@
 namespace strake {
 
 struct FitOptions {
-  std::int64_t rounds = 3;
+  std::int64_t rounds = 6;
 
   OptionList declare();
 };
@@ -19,18 +20,21 @@ struct FitResult {
   Report report;
 };
 
-/// Moves vertices along the surface normal so that the faces between them, which cut off what bends
-/// away from them, lie on both sides of the surface instead of on one.
+/// Moves vertices to where the faces between them lie nearest to the surface, and edges run along
+/// the field.
 ///
-/// Beyond [MK04], whose vertices stay on the surface. Least squares over sample points of the
-/// faces: sum of area * (distance along the normal of the nearest surface point)^2, one unknown
-/// per vertex, solved and measured again `rounds` times. Vertices on feature and boundary lines
-/// stay. A vertex around which the distance grew, or a face became concave, goes back, so that the
-/// sum never grows.
-/// \pre `quads` was made from `mesh`
-/// \return the same faces and provenance; deterministic for any thread count
+/// Beyond [MK04], whose vertices stay on the surface where lines cross. Gauss-Newton steps on a sum
+/// of squares: area times the squared distance of result and surface, both ways (deviation.h), and
+/// the turn of edges against the field and of lines in their vertices (flow_lines.h), a radian
+/// worth as much as ten times the present RMS distance. Vertices on feature and boundary lines
+/// slide along them, corners stay (vertex_places.h). A step is taken only where the sum falls, and
+/// leaves out vertices around which faces would become concave, thin, turned over, or cross others
+/// (face_guard.h).
+/// \param field  nullptr: edges only keep straight
+/// \pre `quads` was made from `mesh`, and so was `field`
+/// \return the same faces; provenance with the new feet; deterministic for any thread count
 /// Cost O(faces of the result * log faces of the mesh) per round.
-FitResult fit_vertices(const TriMesh& mesh, const QuadMesh& quads, const FitOptions& options,
-                       Observer& observer);
+FitResult fit_vertices(const TriMesh& mesh, const PrincipalField* field, const QuadMesh& quads,
+                       const FitOptions& options, Observer& observer);
 
 }  // namespace strake

@@ -9,15 +9,17 @@ namespace strake {
 Stage fit_stage() {
   Stage stage;
   stage.name = "fit";
-  stage.version = 1;
+  stage.version = 2;
   stage.summary = "Moves vertices of a result so that its faces lie nearer to the surface.";
   stage.inputs = {{"mesh", PortKind::mesh, "mesh artifact"},
-                  {"quads", PortKind::quads, "quads artifact of that mesh"}};
+                  {"quads", PortKind::quads, "quads artifact of that mesh"},
+                  {"field", PortKind::field, "field artifact; edges are turned towards it", false}};
   stage.output = {"fitted", PortKind::quads, "result to write: .hdf, .obj, .ply or .off"};
   return with_options<FitOptions>(
       std::move(stage), [](const Inputs& inputs, const FitOptions& options, Observer& observer) {
-        FitResult result = fit_vertices(inputs.get<TriMesh>("mesh"), inputs.get<QuadMesh>("quads"),
-                                        options, observer);
+        FitResult result =
+            fit_vertices(inputs.get<TriMesh>("mesh"), inputs.find<PrincipalField>("field"),
+                         inputs.get<QuadMesh>("quads"), options, observer);
         return StageResult{std::move(result.quads), std::move(result.report)};
       });
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/core/types.h"
+#include "common/geometry/conjugate_gradients.h"
 
 namespace strake {
 
@@ -15,15 +16,7 @@ struct HermitianMatrix {
   std::vector<double> diagonal;              ///< [n], positive
 };
 
-struct SolverOptions {
-  double tolerance = 1e-5;  ///< on the norm of the residual, as a share of that of the right side
-  Index max_iterations = 2000;
-};
-
-/// Solves matrix * x = right by conjugate gradients with the diagonal as preconditioner.
-///
-/// Works in parallel. Sums are taken over blocks of a fixed size and added up in order, so the
-/// result is the same for any number of threads (Eigen's solver is sequential).
+/// Solves matrix * x = right by `conjugate_gradients` with the diagonal as preconditioner.
 /// \param x [n] first guess, then the solution
 /// \return number of iterations
 Index solve(const HermitianMatrix& matrix, const std::vector<std::complex<double>>& right,

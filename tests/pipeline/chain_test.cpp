@@ -28,7 +28,7 @@ TEST_F(Chain, FrontEndKeepsWhatThePrograms) {
   must("strake remesh part.ply -o part.obj --keep kept -q");
   for (const std::string& name : kArtifacts) EXPECT_EQ(bytes(name), bytes("kept/" + name)) << name;
   EXPECT_EQ(bytes("evaluate.json"), bytes("kept/evaluate.json"));
-  must("strake-fit mesh.hdf quads.hdf -o again.obj -q");
+  must("strake-fit mesh.hdf quads.hdf --field field.hdf -o again.obj -q");
   EXPECT_EQ(bytes("part.obj"), bytes("again.obj"));
 }
 
@@ -37,7 +37,7 @@ TEST_F(Chain, AnotherSeedNeedsOnlyTraceAndMeshAgain) {
   const std::string field = bytes("field.hdf");
   must("strake-trace mesh.hdf field.hdf -o lines7.hdf --seed 7 -q");
   must("strake-mesh mesh.hdf lines7.hdf -o quads7.hdf -q");
-  must("strake-fit mesh.hdf quads7.hdf -o fitted7.hdf -q");
+  must("strake-fit mesh.hdf quads7.hdf --field field.hdf -o fitted7.hdf -q");
   EXPECT_EQ(bytes("field.hdf"), field);
   must("strake remesh part.ply -o whole.obj --seed 7 --keep kept -q");
   EXPECT_EQ(bytes("field.hdf"), bytes("kept/field.hdf"));

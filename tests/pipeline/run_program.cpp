@@ -61,7 +61,8 @@ void ProgramTest::run_chain(const std::string& input, const std::string& prefix,
   must("strake-smooth " + name("mesh") + name("tensor") + "-o " + name("field") + end);
   must("strake-trace " + name("mesh") + name("field") + "-o " + name("lines") + end);
   must("strake-mesh " + name("mesh") + name("lines") + "-o " + name("quads") + end);
-  must("strake-fit " + name("mesh") + name("quads") + "-o " + name("fitted") + end);
+  must("strake-fit " + name("mesh") + name("quads") + "--field " + name("field") + "-o " +
+       name("fitted") + end);
 }
 
 std::string ProgramTest::bytes(const std::string& name) const {

@@ -5,10 +5,14 @@
 
 #include <cmath>
 #include <map>
+#include <random>
 
+#include "common/geometry/face_crossings/face_crossings.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/samples/samples.h"
+#include "common/geometry/surface_distance/surface_distance.h"
 #include "tests/support/chain.h"
+#include "tests/support/matchers.h"
 #include "tests/support/mesh_support.h"
 
 namespace strake {
@@ -48,34 +52,37 @@ PolyMesh icosphere(int level) {
   return mesh;
 }
 
-/// A coarse icosphere as a result on a fine one.
+/// A polygon mesh as a result, each vertex put on the nearest point of the mesh.
+QuadMesh placed_on(const TriMesh& mesh, PolyMesh result) {
+  const SurfaceDistance surface(mesh.positions, mesh.faces);
+  QuadMesh quads;
+  for (Vec3& p : result.positions) {
+    const ClosestPoint nearest = surface.closest(p);
+    p = surface.point(nearest);
+    quads.provenance.face.push_back(nearest.triangle);
+    quads.provenance.barycentric.push_back(nearest.barycentric);
+    quads.provenance.lines.push_back({kNone, kNone});
+  }
+  quads.mesh = std::move(result);
+  return quads;
+}
+
+/// A coarse icosphere as a result on a fine one, turned so that nothing is equally near to two.
 struct SphereCase {
   TriMesh mesh = support::plain_tri_mesh(icosphere(6));
-  QuadMesh quads;
-
-  SphereCase() {
-    quads.mesh = icosphere(2);
-    for (Index v = 0; v < quads.mesh.vertex_count(); ++v) {
-      const Index h = mesh.vertex_out[v];
-      std::array<double, 3> barycentric = {0, 0, 0};
-      barycentric[h % 3] = 1;
-      quads.provenance.face.push_back(TriMesh::face_of(h));
-      quads.provenance.barycentric.push_back(barycentric);
-      quads.provenance.lines.push_back({kNone, kNone});
-    }
-  }
+  QuadMesh quads = placed_on(mesh, support::transformed(icosphere(2), support::oblique_rotation()));
 };
 
-QuadMesh fitted(const TriMesh& mesh, const QuadMesh& quads, std::int64_t rounds = 3) {
+QuadMesh fitted(const TriMesh& mesh, const QuadMesh& quads, std::int64_t rounds = 6) {
   SilentObserver observer;
   FitOptions options;
   options.rounds = rounds;
-  return fit_vertices(mesh, quads, options, observer).quads;
+  return fit_vertices(mesh, nullptr, quads, options, observer).quads;
 }
 
 double ratio(const TriMesh& mesh, const QuadMesh& quads) {
   SilentObserver observer;
-  const FitResult result = fit_vertices(mesh, quads, {}, observer);
+  const FitResult result = fit_vertices(mesh, nullptr, quads, {}, observer);
   for (const auto& [key, value] : result.report.entries()) {
     if (key == "fit.rms_ratio") return std::get<double>(value);
   }
@@ -85,12 +92,12 @@ double ratio(const TriMesh& mesh, const QuadMesh& quads) {
 // Over an equilateral triangle between points of a sphere the distance is, to leading order,
 // proportional to q = ab + bc + ca in barycentric coordinates: mean 1/4, mean square 1/15. A common
 // shift removes the mean, so the root mean square falls to sqrt((1/15 - 1/16) / (1/15)) = 1/4. The
-// edges of the icosphere differ by 18 %, so q differs by 40 % between triangles, most of which
-// single vertices cannot follow: 0.35 leaves room for it.
+// edges of the icosphere differ by 18 %, so q differs by 40 % between triangles. Vertices that move
+// on the surface make up for part of that: 0.2 to 0.35 leaves room for it.
 TEST(Fit, ShiftsAnInscribedSphereByItsMeanDistance) {
   const SphereCase sphere;
   EXPECT_LT(ratio(sphere.mesh, sphere.quads), 0.35);
-  EXPECT_GT(ratio(sphere.mesh, sphere.quads), 0.24);
+  EXPECT_GT(ratio(sphere.mesh, sphere.quads), 0.2);
   const QuadMesh result = fitted(sphere.mesh, sphere.quads);
   for (const Vec3& p : result.mesh.positions) {
     EXPECT_GT(p.norm(), 1);
@@ -117,6 +124,75 @@ TEST(Fit, WorksAtAnyPlaceAndScale) {
   }
 }
 
+/// Mean angle between the edges of a result and the nearer of the two circles of the torus around z
+/// whose tube has its middle at distance `major`, degrees.
+double turn_on_torus(const PolyMesh& mesh, double major) {
+  double sum = 0;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const std::span<const Index> face = mesh.face(f);
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      const Vec3& p = mesh.positions[face[i]];
+      const Vec3 way = mesh.positions[face[(i + 1) % face.size()]] - p;
+      const Vec3 middle = p + way / 2;
+      const Vec3 out = Vec3(middle.x(), middle.y(), 0).normalized();
+      const Vec3 around = Vec3::UnitZ().cross(out);
+      const Vec3 normal = (middle - major * out).normalized();
+      sum += std::min(support::line_angle(way, around),
+                      support::line_angle(way, normal.cross(around)));
+    }
+  }
+  return sum / static_cast<double>(mesh.corners.size()) * 180 / M_PI;
+}
+
+// Quads along the circles of a torus, every vertex shaken on the surface: with the field edges turn
+// back to the circles, though their places among them stay free.
+TEST(Fit, TurnsEdgesTowardsTheField) {
+  const double major = 1;
+  const double minor = 0.4;
+  const auto at = [&](double s, double t) {
+    return Vec3((major + minor * std::cos(t)) * std::cos(s),
+                (major + minor * std::cos(t)) * std::sin(s), minor * std::sin(t));
+  };
+  const auto grid = [&](Index n, Index m, double shake) {
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> unit(-shake, shake);
+    PolyMesh mesh;
+    for (Index i = 0; i < n; ++i) {
+      for (Index j = 0; j < m; ++j) {
+        const double s = 2 * M_PI * (i + unit(random)) / n;
+        const double t = 2 * M_PI * (j + unit(random)) / m;
+        mesh.positions.push_back(at(s, t));
+        const Index i1 = (i + 1) % n;
+        const Index j1 = (j + 1) % m;
+        mesh.add_face(std::vector<Index>{i * m + j, i1 * m + j, i1 * m + j1, i * m + j1});
+      }
+    }
+    return mesh;
+  };
+  const support::Prepared surface = support::prepare(grid(160, 80, 0));
+  const QuadMesh shaken = placed_on(surface.mesh, grid(40, 20, 0.15));
+  SilentObserver observer;
+  const QuadMesh with = fit_vertices(surface.mesh, &surface.field, shaken, {}, observer).quads;
+  const double before = turn_on_torus(shaken.mesh, major);
+  EXPECT_GT(before, 5);
+  EXPECT_LT(turn_on_torus(with.mesh, major), 0.3 * before);
+  EXPECT_LT(turn_on_torus(with.mesh, major),
+            turn_on_torus(fitted(surface.mesh, shaken).mesh, major));
+}
+
+TEST(Fit, TurnsWithTheModel) {
+  const SphereCase sphere;
+  const QuadMesh plain = fitted(sphere.mesh, sphere.quads);
+  SphereCase turned;
+  const Mat3 rotation = support::oblique_rotation();
+  for (Vec3& p : turned.mesh.positions) p = rotation * p;
+  for (Vec3& p : turned.quads.mesh.positions) p = rotation * p;
+  const QuadMesh result = fitted(turned.mesh, turned.quads);
+  for (Index v = 0; v < result.mesh.vertex_count(); ++v) {
+    EXPECT_TRUE(support::near(result.mesh.positions[v], rotation * plain.mesh.positions[v], 1e-7));
+  }
+}
+
 TEST(Fit, NoRoundsChangeNothing) {
   const SphereCase sphere;
   EXPECT_EQ(fitted(sphere.mesh, sphere.quads, 0).mesh.positions, sphere.quads.mesh.positions);
@@ -137,40 +213,96 @@ class FitOfSamples : public testing::TestWithParam<SampleKind> {
  protected:
   FitOfSamples() {
     SampleOptions options;
-    options.faces = 12000;
+    options.faces = 6000;
     surface_ = support::prepare(make_sample(GetParam(), options));
-    quads_ = support::mesh(surface_, support::trace(surface_));
+    TraceOptions trace;
+    trace.vertices = 700;
+    quads_ = support::mesh(surface_, support::trace(surface_, trace));
   }
 
   support::Prepared surface_;
   QuadMesh quads_;
 };
 
-TEST_P(FitOfSamples, LeavesFeaturesAndBoundariesWhereTheyAre) {
-  const TriMesh& mesh = surface_.mesh;
-  const QuadMesh result = fitted(mesh, quads_);
-  int held = 0;
-  for (Index v = 0; v < result.mesh.vertex_count(); ++v) {
-    const Index face = quads_.provenance.face[v];
-    const auto& at = quads_.provenance.barycentric[v];
-    for (int i = 0; i < 3; ++i) {
-      if (at[i] != 0 || !mesh.is_barrier(3 * face + (i + 1) % 3)) continue;
-      EXPECT_EQ(result.mesh.positions[v], quads_.mesh.positions[v]) << v;
-      ++held;
-    }
+/// Where a vertex's provenance says that it belongs.
+Vec3 foot(const TriMesh& mesh, const QuadMesh& quads, Index v) {
+  Vec3 sum = Vec3::Zero();
+  for (int i = 0; i < 3; ++i) {
+    sum += quads.provenance.barycentric[v][i] *
+           mesh.positions[mesh.faces[quads.provenance.face[v]][i]];
   }
-  const bool has_lines = GetParam() != SampleKind::torus && GetParam() != SampleKind::sphere;
-  EXPECT_EQ(held > 0, has_lines);
+  return sum + mesh.origin;
 }
 
-TEST_P(FitOfSamples, NeverIncreasesTheDistanceNorMakesFacesConcave) {
-  EXPECT_LE(ratio(surface_.mesh, quads_), 1);
+/// Whether the foot of a vertex lies on a feature or boundary edge of its face, or at their corner.
+enum class On { surface, line, corner };
+On place_of(const TriMesh& mesh, const QuadMesh& quads, Index v) {
+  const Index face = quads.provenance.face[v];
+  const auto& at = quads.provenance.barycentric[v];
+  for (int i = 0; i < 3; ++i) {
+    if (at[i] > 1 - 1e-9 && mesh.is_corner[mesh.faces[face][i]] != 0) return On::corner;
+  }
+  for (int i = 0; i < 3; ++i) {
+    if (at[i] < 1e-9 && mesh.is_barrier(3 * face + (i + 1) % 3)) return On::line;
+  }
+  return On::surface;
+}
+
+TEST_P(FitOfSamples, KeepsCornersAndSlidesAlongFeaturesAndBoundaries) {
+  const TriMesh& mesh = surface_.mesh;
+  const QuadMesh result = fitted(mesh, quads_);
+  int on_lines = 0;
+  int moved = 0;
+  for (Index v = 0; v < result.mesh.vertex_count(); ++v) {
+    const On place = place_of(mesh, quads_, v);
+    if (place == On::surface) continue;
+    ++on_lines;
+    if (place == On::corner) {
+      EXPECT_EQ(result.mesh.positions[v], quads_.mesh.positions[v]) << v;
+      continue;
+    }
+    EXPECT_NE(place_of(mesh, result, v), On::surface) << v;
+    EXPECT_TRUE(support::near(result.mesh.positions[v], foot(mesh, result, v), 1e-12)) << v;
+    moved += result.mesh.positions[v] != quads_.mesh.positions[v] ? 1 : 0;
+  }
+  const bool has_lines = GetParam() != SampleKind::torus;
+  EXPECT_EQ(on_lines > 0, has_lines);
+  if (GetParam() == SampleKind::part) {
+    EXPECT_GT(moved, 0);
+  }
+}
+
+// None of these samples has another sheet nearer to a vertex than its own.
+TEST_P(FitOfSamples, KeepsTheFootOfEveryVertex) {
+  const TriMesh& mesh = surface_.mesh;
+  const QuadMesh result = fitted(mesh, quads_);
+  const SurfaceDistance surface(mesh.positions, mesh.faces);
+  for (Index v = 0; v < result.mesh.vertex_count(); ++v) {
+    const Vec3 p = result.mesh.positions[v];
+    const double distance = (p - foot(mesh, result, v)).norm();
+    EXPECT_NEAR(distance, surface.closest(p - mesh.origin).distance, 1e-12 * mesh.diagonal) << v;
+  }
+}
+
+TEST_P(FitOfSamples, NeverIncreasesTheDistanceNorSpoilsFaces) {
+  const double improved = ratio(surface_.mesh, quads_);
+  if (GetParam() != SampleKind::plane) {
+    EXPECT_LT(improved, 0.9);
+  }
   const QuadMesh result = fitted(surface_.mesh, quads_);
   EXPECT_EQ(result.mesh.corners, quads_.mesh.corners);
   for (Index f = 0; f < result.mesh.face_count(); ++f) {
     if (is_concave_face(quads_.mesh.positions, quads_.mesh.face(f))) continue;
     EXPECT_FALSE(is_concave_face(result.mesh.positions, result.mesh.face(f))) << f;
+    EXPECT_GT(newell_normal(result.mesh.positions, result.mesh.face(f))
+                  .dot(newell_normal(quads_.mesh.positions, quads_.mesh.face(f))),
+              0)
+        << f;
   }
+  const auto crossings = [](const PolyMesh& polygons) {
+    return find_crossing_faces(polygons.positions, triangulate_faces(polygons)).size();
+  };
+  EXPECT_LE(crossings(result.mesh), crossings(quads_.mesh));
 }
 
 INSTANTIATE_TEST_SUITE_P(Samples, FitOfSamples,

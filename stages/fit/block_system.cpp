@@ -1,0 +1,75 @@
+#include "stages/fit/block_system.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <limits>
+
+#include "common/geometry/conjugate_gradients.h"
+
+namespace strake::fitting {
+namespace {
+
+/// Moves are measured again in the next round, so little is won by solving more exactly.
+constexpr SolverOptions kSolver = {.tolerance = 1e-4, .max_iterations = 300};
+
+}  // namespace
+
+BlockSystem::BlockSystem(const std::vector<std::vector<Index>>& neighbours)
+    : diagonal_(neighbours.size()), right_(neighbours.size()) {
+  for (const std::vector<Index>& row : neighbours) {
+    columns_.insert(columns_.end(), row.begin(), row.end());
+    offsets_.push_back(static_cast<Index>(columns_.size()));
+  }
+  blocks_.resize(columns_.size());
+  set_zero();
+}
+
+void BlockSystem::set_zero() {
+  std::fill(blocks_.begin(), blocks_.end(), Mat3::Zero());
+  std::fill(diagonal_.begin(), diagonal_.end(), Mat3::Zero());
+  std::fill(right_.begin(), right_.end(), Vec3::Zero());
+}
+
+void BlockSystem::add(Index i, Index j, const Mat3& block) {
+  if (i == j) {
+    diagonal_[i] += block;
+    return;
+  }
+  const auto end = columns_.begin() + offsets_[i + 1];
+  const auto at = std::lower_bound(columns_.begin() + offsets_[i], end, j);
+  blocks_[at - columns_.begin()] += block;
+}
+
+void BlockSystem::restrict_to(const std::vector<Mat3>& projections) {
+  for (Index i = 0; i < size(); ++i) {
+    const Mat3& own = projections[i];
+    // What an unknown may not do is an equation of its own, of the same size: 0 = 0.
+    const double scale = std::max(diagonal_[i].trace(), std::numeric_limits<double>::min());
+    diagonal_[i] = own * diagonal_[i] * own + scale * (Mat3::Identity() - own);
+    right_[i] = own * right_[i];
+    for (Index at = offsets_[i]; at < offsets_[i + 1]; ++at) {
+      blocks_[at] = own * blocks_[at] * projections[columns_[at]];
+    }
+  }
+}
+
+std::vector<Vec3> BlockSystem::solve() const {
+  std::vector<Mat3> inverse(diagonal_.size());
+  std::transform(diagonal_.begin(), diagonal_.end(), inverse.begin(),
+                 [](const Mat3& block) { return block.inverse(); });
+  std::vector<Vec3> x(diagonal_.size(), Vec3::Zero());
+  conjugate_gradients(
+      right_, kSolver,
+      [this](Index i, const std::vector<Vec3>& y) -> Vec3 {
+        Vec3 sum = diagonal_[i] * y[i];
+        for (Index at = offsets_[i]; at < offsets_[i + 1]; ++at) {
+          sum += blocks_[at] * y[columns_[at]];
+        }
+        return sum;
+      },
+      [&inverse](Index i, const Vec3& value) -> Vec3 { return inverse[i] * value; },
+      [](const Vec3& a, const Vec3& b) { return a.dot(b); }, x);
+  return x;
+}
+
+}  // namespace strake::fitting

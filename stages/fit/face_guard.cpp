@@ -1,0 +1,78 @@
+#include "stages/fit/face_guard.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/geometry/face_crossings/face_crossings.h"
+
+namespace strake::fitting {
+namespace {
+
+constexpr double kSmallAngle = 20 * std::numbers::pi / 180;
+/// Angles that differ by less are equal: rounding.
+constexpr double kSameAngle = 1e-9;
+
+}  // namespace
+
+std::vector<std::array<Index, 2>> crossing_pairs(const PolyMesh& mesh,
+                                                 const std::vector<Vec3>& positions) {
+  FaceTriangles triangles;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    triangulate_face(positions, mesh.face(f), triangles.corners);
+    triangles.face.resize(triangles.corners.size(), f);
+  }
+  return find_crossing_faces(positions, triangles);
+}
+
+FaceGuard::Form FaceGuard::form(const VertexPlaces& places, Index face) const {
+  const std::vector<Vec3>& p = places.positions();
+  const std::span<const Index> corners = mesh_.face(face);
+  Form form;
+  form.is_concave = is_concave_face(p, corners);
+  form.least_angle = std::numbers::pi;
+  Vec3 outward = Vec3::Zero();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec3 ahead = p[corners[(i + 1) % corners.size()]] - p[corners[i]];
+    const Vec3 back = p[corners[(i + corners.size() - 1) % corners.size()]] - p[corners[i]];
+    form.least_angle =
+        std::min(form.least_angle, std::atan2(ahead.cross(back).norm(), ahead.dot(back)));
+    outward += places.normal(corners[i]);
+  }
+  form.faces_away = newell_normal(p, corners).dot(outward) < 0;
+  return form;
+}
+
+void FaceGuard::set_start(const VertexPlaces& places) {
+  start_.resize(static_cast<std::size_t>(mesh_.face_count()));
+  for (Index f = 0; f < mesh_.face_count(); ++f) start_[f] = form(places, f);
+  crossings_ = crossing_pairs(mesh_, places.positions());
+}
+
+std::vector<std::uint8_t> FaceGuard::spoilt(const VertexPlaces& places) const {
+  std::vector<std::uint8_t> spoilt(mesh_.positions.size(), 0);
+  for (Index f = 0; f < mesh_.face_count(); ++f) {
+    const Form now = form(places, f);
+    const Form& start = start_[f];
+    if ((!now.is_concave || start.is_concave) && (!now.faces_away || start.faces_away) &&
+        (now.least_angle >= kSmallAngle || now.least_angle >= start.least_angle - kSameAngle)) {
+      continue;
+    }
+    for (const Index v : mesh_.face(f)) spoilt[v] = 1;
+  }
+  return spoilt;
+}
+
+std::vector<std::uint8_t> FaceGuard::newly_crossing(const VertexPlaces& places) const {
+  std::vector<std::uint8_t> crossing(mesh_.positions.size(), 0);
+  for (const auto& pair : crossing_pairs(mesh_, places.positions())) {
+    if (std::binary_search(crossings_.begin(), crossings_.end(), pair)) continue;
+    for (const Index f : pair) {
+      for (const Index v : mesh_.face(f)) crossing[v] = 1;
+    }
+  }
+  return crossing;
+}
+
+}  // namespace strake::fitting

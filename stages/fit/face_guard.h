@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "common/core/poly_mesh.h"
+#include "common/core/types.h"
+#include "common/geometry/poly_topology/face_shape.h"
+#include "stages/fit/vertex_places.h"
+
+namespace strake::fitting {
+
+/// Finds the faces that a move has made worse than they may get.
+///
+/// A face must not become concave, turn away from the surface, or get a smaller least angle than it
+/// had where that is below 20 degrees, and no two faces may begin to cross.
+class FaceGuard {
+ public:
+  explicit FaceGuard(const PolyMesh& mesh) : mesh_(mesh) {}
+
+  /// Takes the faces as they are now as the state to compare with.
+  void set_start(const VertexPlaces& places);
+  /// [V] 1 at the vertices of faces that got worse in shape.
+  [[nodiscard]] std::vector<std::uint8_t> spoilt(const VertexPlaces& places) const;
+  /// [V] 1 at the vertices of faces that cross, of which at least one did not at the start.
+  [[nodiscard]] std::vector<std::uint8_t> newly_crossing(const VertexPlaces& places) const;
+
+ private:
+  struct Form {
+    bool is_concave = false;
+    bool faces_away = false;
+    double least_angle = 0;  ///< radians
+  };
+
+  [[nodiscard]] Form form(const VertexPlaces& places, Index face) const;
+
+  const PolyMesh& mesh_;
+  std::vector<Form> start_;                      ///< [F]
+  std::vector<std::array<Index, 2>> crossings_;  ///< pairs of faces, ascending
+};
+
+/// Pairs of faces that cross when the mesh has these positions.
+std::vector<std::array<Index, 2>> crossing_pairs(const PolyMesh& mesh,
+                                                 const std::vector<Vec3>& positions);
+
+}  // namespace strake::fitting

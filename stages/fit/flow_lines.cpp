@@ -1,0 +1,184 @@
+#include "stages/fit/flow_lines.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/geometry/poly_topology/face_shape.h"
+#include "common/geometry/poly_topology/poly_edges.h"
+
+namespace strake::fitting {
+namespace {
+
+/// Corners above this are the straight side of a T-joint.
+constexpr double kJointAngle = 150 * std::numbers::pi / 180;
+/// What it costs to leave the field's direction, and to bend, for the same angle.
+constexpr double kAlong = 100;
+constexpr double kStraight = 3;
+/// Edges steeper than this against the surface have no direction on it.
+constexpr double kLeastTangential = 0.3;
+
+double angle_between(const Vec3& a, const Vec3& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// The wish of an edge to run along the cross at its end `v`. \param arm  one of the cross's arms
+DirectionTerm along_cross(const VertexPlaces& places, const Vec3& arm,
+                          const std::array<Index, 2>& edge, Index v, double square) {
+  DirectionTerm term{{edge[0], edge[1], edge[0]}, {-1, 1, 0}};
+  const Vec3 way = places.positions()[edge[1]] - places.positions()[edge[0]];
+  const Vec3 other = places.normal(v).cross(arm);
+  const double x = way.dot(arm);
+  const double y = way.dot(other);
+  const double square_on_surface = x * x + y * y;
+  if (!(square_on_surface > kLeastTangential * kLeastTangential * way.squaredNorm())) return term;
+  term.side = std::abs(x) >= std::abs(y) ? other : arm;
+  term.residual = way.dot(term.side);
+  // Cosine of the double angle: half way between two arms neither is wanted more, and diagonals
+  // of the cross should stay what they are.
+  const double clear = std::abs(x * x - y * y) / square_on_surface;
+  term.weight = kAlong * square * clear * clear * clear * clear;
+  return term;
+}
+
+}  // namespace
+
+FlowLines::FlowLines(const PolyMesh& mesh) : mesh_(mesh) {
+  PolyEdges edges = collect_edges(mesh);
+  std::vector<Index> twin(mesh.corners.size(), kNone);
+  for (Index e = 0; e < edges.edge_count(); ++e) {
+    const std::span<const Index> sides = edges.sides_of(e);
+    if (sides.size() != 2) continue;
+    twin[sides[0]] = sides[1];
+    twin[sides[1]] = sides[0];
+  }
+  edges_ = std::move(edges.vertices);
+  face_of_ = std::move(edges.corner_face);
+  std::vector<Index> corner_at(mesh.positions.size(), kNone);
+  for (std::size_t c = 0; c < mesh.corners.size(); ++c) {
+    corner_at[mesh.corners[c]] = static_cast<Index>(c);
+  }
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    if (corner_at[v] != kNone) follow_lines(v, corners_around(twin, corner_at[v]));
+  }
+}
+
+/// The corners at a vertex counter-clockwise; none on the boundary.
+std::vector<Index> FlowLines::corners_around(const std::vector<Index>& twin, Index first) const {
+  std::vector<Index> corners;
+  Index c = first;
+  do {
+    corners.push_back(c);
+    const Index f = face_of_[c];
+    c = twin[c == mesh_.offsets[f] ? mesh_.offsets[f + 1] - 1 : c - 1];
+    if (c == kNone) return {};
+  } while (c != first);
+  return corners;
+}
+
+void FlowLines::follow_lines(Index vertex, const std::vector<Index>& around) {
+  std::vector<Index> ends;
+  for (const Index c : around) {
+    const Index f = face_of_[c];
+    ends.push_back(mesh_.corners[c + 1 == mesh_.offsets[f + 1] ? mesh_.offsets[f] : c + 1]);
+  }
+  if (ends.size() == 4) {
+    through_.push_back({ends[0], vertex, ends[2]});
+    through_.push_back({ends[1], vertex, ends[3]});
+    return;
+  }
+  if (ends.size() != 3) return;
+  for (int i = 0; i < 3; ++i) {
+    const Through line = {ends[(i + 1) % 3], vertex, ends[i]};
+    const Vec3& p = mesh_.positions[vertex];
+    if (angle_between(mesh_.positions[line.before] - p, mesh_.positions[line.after] - p) <
+        kJointAngle) {
+      continue;
+    }
+    through_.push_back(line);
+    if (mesh_.face(face_of_[around[i]]).size() > 3) joints_.push_back({face_of_[around[i]], line});
+    return;
+  }
+}
+
+std::vector<std::vector<Index>> FlowLines::neighbours() const {
+  std::vector<std::vector<Index>> rows(mesh_.positions.size());
+  for (Index f = 0; f < mesh_.face_count(); ++f) {
+    for (const Index v : mesh_.face(f)) {
+      for (const Index w : mesh_.face(f)) {
+        if (v != w) rows[v].push_back(w);
+      }
+    }
+  }
+  for (const Through& line : through_) {
+    rows[line.before].push_back(line.after);
+    rows[line.after].push_back(line.before);
+  }
+  for (std::vector<Index>& row : rows) {
+    std::sort(row.begin(), row.end());
+    row.erase(std::unique(row.begin(), row.end()), row.end());
+  }
+  return rows;
+}
+
+std::vector<DirectionTerm> FlowLines::terms(const VertexPlaces& places, const PrincipalField* field,
+                                            double square) const {
+  std::vector<DirectionTerm> terms;
+  const std::vector<Vec3>& p = places.positions();
+  for (const auto& [before, vertex, after] : through_) {
+    const Vec3 ahead = p[after] - p[vertex];
+    const Vec3 back = p[vertex] - p[before];
+    const double sum = ahead.norm() + back.norm();
+    if (!(sum > 0)) continue;
+    DirectionTerm term{{vertex, before, after}, {-1, ahead.norm() / sum, back.norm() / sum}};
+    term.side = places.normal(vertex).cross(ahead + back).normalized();
+    term.residual =
+        term.side.dot(term.factors[1] * p[before] + term.factors[2] * p[after] - p[vertex]);
+    term.weight = kStraight * square;
+    terms.push_back(term);
+  }
+  if (field == nullptr) return terms;
+  std::vector<Vec3> arms;
+  for (Index v = 0; v < mesh_.vertex_count(); ++v) arms.push_back(places.cross_arm(*field, v));
+  for (const auto& edge : edges_) {
+    for (const Index v : edge) {
+      if (places.is_free(v)) terms.push_back(along_cross(places, arms[v], edge, v, square / 2));
+    }
+  }
+  return terms;
+}
+
+void FlowLines::straighten_joints(VertexPlaces& places) const {
+  for (const auto& [face, along] : joints_) {
+    const std::vector<Vec3>& p = places.positions();
+    const Vec3 inward =
+        newell_normal(p, mesh_.face(face)).normalized().cross(p[along.after] - p[along.before]);
+    const double length2 = inward.squaredNorm();
+    const double dent = inward.dot(p[along.vertex] - p[along.before]);
+    if (dent > 0 && length2 > 0) places.move(along.vertex, -(dent / length2) * inward);
+  }
+}
+
+double sum_of(const std::vector<DirectionTerm>& terms) {
+  double sum = 0;
+  for (const DirectionTerm& term : terms) sum += term.weight * term.residual * term.residual;
+  return sum;
+}
+
+void add_to(BlockSystem& system, const std::vector<DirectionTerm>& terms) {
+  for (const DirectionTerm& term : terms) {
+    const Mat3 across = term.weight * term.side * term.side.transpose();
+    for (int i = 0; i < 3; ++i) {
+      if (term.factors[i] == 0) continue;
+      system.add_right(term.vertices[i],
+                       -term.weight * term.factors[i] * term.residual * term.side);
+      for (int j = 0; j < 3; ++j) {
+        if (term.factors[j] == 0) continue;
+        system.add(term.vertices[i], term.vertices[j], term.factors[i] * term.factors[j] * across);
+      }
+    }
+  }
+}
+
+}  // namespace strake::fitting

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "common/core/fields.h"
+#include "common/core/poly_mesh.h"
+#include "common/core/types.h"
+#include "stages/fit/block_system.h"
+#include "stages/fit/vertex_places.h"
+
+namespace strake::fitting {
+
+/// The wish that a sum of positions, each times its factor, had no part along `side`.
+struct DirectionTerm {
+  std::array<Index, 3> vertices;
+  std::array<double, 3> factors;
+  Vec3 side = Vec3::Zero();  ///< unit
+  double weight = 0;
+  double residual = 0;  ///< the part there is
+};
+
+/// The lines that the edges of a result form, and where they want to go: straight on through every
+/// vertex where they can be followed, and along the arms of the cross field.
+class FlowLines {
+ public:
+  explicit FlowLines(const PolyMesh& mesh);
+
+  /// [V] which vertices a face or a line couples, ascending.
+  [[nodiscard]] std::vector<std::vector<Index>> neighbours() const;
+
+  /// All wishes at the present places.
+  /// \param field        nullptr: lines only want to be straight
+  /// \param square       squared distance that an edge turned by one radian is worth
+  [[nodiscard]] std::vector<DirectionTerm> terms(const VertexPlaces& places,
+                                                 const PrincipalField* field, double square) const;
+
+  /// Moves T-joints that make their face concave onto the line between their neighbours, within the
+  /// face's plane.
+  void straighten_joints(VertexPlaces& places) const;
+
+ private:
+  /// A line of edges through a vertex.
+  struct Through {
+    Index before;
+    Index vertex;
+    Index after;
+  };
+  struct Joint {
+    Index face;     ///< whose straight corner it is
+    Through along;  ///< in the face's order
+  };
+
+  [[nodiscard]] std::vector<Index> corners_around(const std::vector<Index>& twin,
+                                                  Index first) const;
+  void follow_lines(Index vertex, const std::vector<Index>& around);
+
+  const PolyMesh& mesh_;
+  std::vector<Index> face_of_;  ///< [C]
+  std::vector<std::array<Index, 2>> edges_;
+  std::vector<Through> through_;
+  std::vector<Joint> joints_;
+};
+
+double sum_of(const std::vector<DirectionTerm>& terms);
+void add_to(BlockSystem& system, const std::vector<DirectionTerm>& terms);
+
+}  // namespace strake::fitting

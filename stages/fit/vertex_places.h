@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "common/core/fields.h"
+#include "common/core/poly_mesh.h"
+#include "common/core/tri_mesh.h"
+#include "common/geometry/surface_distance/surface_distance.h"
+
+namespace strake::fitting {
+
+/// Where the vertices of a result may go, and where they belong on the surface.
+///
+/// A vertex on a feature or boundary line stays on it: it slides along the line's edges, up to the
+/// corner where the line ends. Corners do not move at all. All others move freely, and their foot
+/// on the surface follows.
+class VertexPlaces {
+ public:
+  /// \param mesh, surface  the input and its faces, in the same order
+  VertexPlaces(const TriMesh& mesh, const SurfaceDistance& surface, const QuadMesh& quads);
+
+  /// [V] relative to the mesh's origin.
+  [[nodiscard]] const std::vector<Vec3>& positions() const { return positions_; }
+  /// Unit normal of the surface at the vertex's foot.
+  [[nodiscard]] const Vec3& normal(Index v) const { return normals_[v]; }
+  [[nodiscard]] bool is_free(Index v) const { return lines_[v].kind == Kind::free; }
+  /// One arm of the field's cross at the vertex's foot; zero where it cancels.
+  [[nodiscard]] Vec3 cross_arm(const PrincipalField& field, Index v) const;
+  /// Projects onto the directions in which the vertex may move: rank 3, 1 or 0.
+  [[nodiscard]] Mat3 freedom(Index v) const;
+
+  /// Moves a vertex as far as it may go; on a line by the share of `move` along it.
+  void move(Index v, const Vec3& move);
+  /// Finds the feet and normals of vertices again after moves.
+  void update_feet();
+
+  /// [V] where the vertices are, to return to.
+  struct State;
+  [[nodiscard]] std::vector<State> states() const;
+  void restore(Index v, const State& state);
+
+  /// Writes positions and provenance to a result.
+  void store(QuadMesh& quads) const;
+
+ private:
+  enum class Kind : std::uint8_t { free, line, fixed };
+  /// A place on the line of barrier edges that a vertex slides along.
+  struct LinePlace {
+    Kind kind = Kind::free;
+    Index halfedge = kNone;  ///< a barrier
+    double along = 0;        ///< in [0, 1] from its origin
+  };
+
+  void place_on_line(Index v);
+  [[nodiscard]] std::vector<Index> barriers_around(Index vertex) const;
+  [[nodiscard]] Index other_barrier(Index vertex, Index halfedge) const;
+  [[nodiscard]] Vec3 tangent(const LinePlace& place) const;
+  [[nodiscard]] LinePlace slide(LinePlace place, double distance) const;
+  [[nodiscard]] Vec3 at(const LinePlace& place) const;
+  [[nodiscard]] Vec3 normal_at_foot(Index v) const;
+
+  const TriMesh& mesh_;
+  const SurfaceDistance& surface_;
+  std::vector<Vec3> face_normals_;
+  std::vector<Vec3> wedge_normals_;
+  std::vector<Vec3> positions_;
+  std::vector<Vec3> normals_;
+  std::vector<LinePlace> lines_;
+  std::vector<Index> foot_face_;
+  std::vector<std::array<double, 3>> foot_;
+};
+
+struct VertexPlaces::State {
+  Vec3 position;
+  LinePlace line;
+};
+
+}  // namespace strake::fitting
