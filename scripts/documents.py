@@ -9,9 +9,13 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 
 
+def script_name():
+    return pathlib.Path(sys.argv[0]).name
+
+
 def fail(message):
     """Ends the script with a message."""
-    sys.exit(f"{pathlib.Path(sys.argv[0]).name}: error: {message}")
+    sys.exit(f"{script_name()}: error: {message}")
 
 
 def program(name):
@@ -22,12 +26,17 @@ def program(name):
     return str(path)
 
 
+def models_folder():
+    """The folder of the test models: $STRAKE_MODELS, else ../shared/models beside the tree."""
+    return pathlib.Path(os.environ.get("STRAKE_MODELS") or ROOT.parent / "shared" / "models")
+
+
 def model(name):
-    """The path of a test model: in $STRAKE_MODELS, else in ../shared/models beside the tree."""
-    folder = pathlib.Path(os.environ.get("STRAKE_MODELS") or ROOT.parent / "shared" / "models")
-    if not (folder / name).exists():
-        fail(f"there is no {folder / name}; set STRAKE_MODELS to the folder of the test models")
-    return str(folder / name)
+    """The path of a test model."""
+    path = models_folder() / name
+    if not path.exists():
+        fail(f"there is no {path}; set STRAKE_MODELS to the folder of the test models")
+    return str(path)
 
 
 def cases():
@@ -36,11 +45,32 @@ def cases():
         return list(csv.DictReader(file))
 
 
+def peer_figures():
+    """The rows of docs/peers.csv: measured figures of other programs, as docs/quality.md describes."""
+    with open(ROOT / "docs" / "peers.csv", encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def peer_near(model_name, vertices, programs):
+    """The row of the first of these programs that was measured at about a count; None where none was."""
+    for name in programs:
+        for row in peer_figures():
+            if (row["model"], row["program"]) == (model_name, name) and \
+                    abs(int(row["vertices"]) / vertices - 1) < 0.1:
+                return row
+    return None
+
+
+class ProgramFailed(SystemExit):
+    """A program returned an error; ends the script unless caught."""
+
+
 def output_of(*command):
-    """What a command prints; ends the script where it fails."""
+    """What a command prints."""
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode != 0:
-        fail(f"'{' '.join(command)}' returned {done.returncode}:\n{done.stderr}")
+        raise ProgramFailed(f"{script_name()}: error: '{' '.join(command)}' returned "
+                            f"{done.returncode}:\n{done.stderr}")
     return done.stdout
 
 
