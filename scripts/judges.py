@@ -66,8 +66,8 @@ class Meter:
 
 
 class Evaluate:
-    """The project's own stage evaluate, where the meter is missing. It does not look for faces that
-    pass through each other, and without a field of curvature it judges no alignment."""
+    """The project's own stage evaluate, where the meter is missing. Without a field of curvature it
+    judges no alignment."""
 
     name = "strake-evaluate (without the independent meter)"
 
@@ -102,7 +102,7 @@ class Evaluate:
             "valence_4": percent(found["valence"]["share_4"]),
             "concave": found["faces"]["concave"],
             "sharp_faces": None,
-            "crossing_pairs": None,
+            "crossing_pairs": found["shape"]["self_intersecting_pairs"],
             "crossing_faces": None,
         }
 

@@ -6,7 +6,7 @@ import pathlib
 import documents
 
 VIEWS = pathlib.Path(__file__).with_name("views.csv")
-SIZE = "400x330"
+SIZE = "340x280"
 
 
 def draw(bench, chosen, folder):

@@ -41,6 +41,8 @@ GOALS = [
     Goal("RMS / Instant Meshes, every case", "rms_to_peer", 0.8),
     Goal("max / Instant Meshes, median", "max_to_peer", 0.5, median=True),
     Goal("RMS / quadric decimation, median", "rms_to_quadrics", 1.5, median=True),
+    Goal("the same, scans", "rms_to_quadrics", 1.5, median=True, groups=SCANS),
+    Goal("the same, parts", "rms_to_quadrics", 1.5, median=True, groups=PARTS),
     Goal("quads, % of faces, scans", "quads", 95, True, groups=SCANS, digits=1),
     Goal("quads, % of area, scans", "quads_by_area", 95, True, groups=SCANS, digits=1),
     Goal("quads, % of faces, parts", "quads", 92, True, groups=PARTS, digits=1),
