@@ -11,6 +11,7 @@
 #include "common/geometry/surface_distance/surface_distance.h"
 #include "stages/fit/block_system.h"
 #include "stages/fit/deviation.h"
+#include "stages/fit/divide_crossing.h"
 #include "stages/fit/face_guard.h"
 #include "stages/fit/flow_lines.h"
 #include "stages/fit/vertex_places.h"
@@ -180,6 +181,8 @@ FitResult fit_vertices(const TriMesh& mesh, const PrincipalField* field, const Q
   for (std::size_t v = 0; v < quads.mesh.positions.size(); ++v) {
     moved = std::max(moved, (result.quads.mesh.positions[v] - quads.mesh.positions[v]).norm());
   }
+  const Index divided = fitting::divide_crossing_faces(result.quads.mesh);
+  result.report.set("fit.divided_faces", std::int64_t{divided});
   result.report.set("fit.rounds", rounds);
   result.report.set("fit.rms_ratio", before > 0 ? std::sqrt(fit.error() / before) : 1.0);
   result.report.set("fit.longest_move", moved);

@@ -32,8 +32,8 @@ struct FitResult {
 /// (face_guard.h).
 /// \param field  nullptr: edges only keep straight
 /// \pre `quads` was made from `mesh`, and so was `field`
-/// \return the same faces; provenance with the new feet; deterministic for any thread count
-/// Cost O(faces of the result * log faces of the mesh) per round.
+/// \return the same faces but for divided ones; provenance with the new feet; deterministic for any
+/// thread count Cost O(faces of the result * log faces of the mesh) per round.
 FitResult fit_vertices(const TriMesh& mesh, const PrincipalField* field, const QuadMesh& quads,
                        const FitOptions& options, Observer& observer);
 

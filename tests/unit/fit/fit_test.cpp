@@ -9,6 +9,7 @@
 
 #include "common/geometry/face_crossings/face_crossings.h"
 #include "common/geometry/poly_topology/face_shape.h"
+#include "common/geometry/poly_topology/poly_topology.h"
 #include "common/geometry/samples/samples.h"
 #include "common/geometry/surface_distance/surface_distance.h"
 #include "tests/support/chain.h"
@@ -290,8 +291,9 @@ TEST_P(FitOfSamples, NeverIncreasesTheDistanceNorSpoilsFaces) {
     EXPECT_LT(improved, 0.9);
   }
   const QuadMesh result = fitted(surface_.mesh, quads_);
-  EXPECT_EQ(result.mesh.corners, quads_.mesh.corners);
-  for (Index f = 0; f < result.mesh.face_count(); ++f) {
+  EXPECT_GE(result.mesh.face_count(), quads_.mesh.face_count());  // some may have been divided
+  EXPECT_EQ(analyse(result.mesh).euler, analyse(quads_.mesh).euler);
+  for (Index f = 0; f < quads_.mesh.face_count(); ++f) {
     if (is_concave_face(quads_.mesh.positions, quads_.mesh.face(f))) continue;
     EXPECT_FALSE(is_concave_face(result.mesh.positions, result.mesh.face(f))) << f;
     EXPECT_GT(newell_normal(result.mesh.positions, result.mesh.face(f))
