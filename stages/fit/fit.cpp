@@ -31,7 +31,7 @@ using fitting::VertexPlaces;
 constexpr double kHold = 0.02;
 /// Weight that holds it back on the surface: squared distance, in mean ones, that a move by the
 /// length of an edge is worth.
-constexpr double kHoldOnSurface = 30;
+constexpr double kHoldOnSurface = 10;
 /// Even where the distance is zero a vertex is held on the surface, by this share of the area.
 constexpr double kLeastHold = 1e-6;
 /// A vertex moves by at most this share of its shortest edge in a round.

@@ -30,7 +30,7 @@ struct FitResult {
 /// slide along them, corners stay (vertex_places.h). A step is taken only where the sum falls, and
 /// leaves out vertices around which faces would become concave, thin, turned over, or cross others
 /// (face_guard.h).
-/// \param field  nullptr: edges only keep straight
+/// \param field  nullptr: lines of edges only keep straight and even
 /// \pre `quads` was made from `mesh`, and so was `field`
 /// \return the same faces but for divided ones; provenance with the new feet; deterministic for any
 /// thread count Cost O(faces of the result * log faces of the mesh) per round.

@@ -13,9 +13,11 @@ namespace {
 
 /// Corners above this are the straight side of a T-joint.
 constexpr double kJointAngle = 150 * std::numbers::pi / 180;
-/// What it costs to leave the field's direction, and to bend, for the same angle.
+/// What it costs to leave the field's direction, to bend, and to leave the share of the way between
+/// neighbours that lines were traced with; for the same angle.
 constexpr double kAlong = 100;
-constexpr double kStraight = 3;
+constexpr double kStraight = 10;
+constexpr double kEven = 10;
 /// Edges steeper than this against the surface have no direction on it.
 constexpr double kLeastTangential = 0.3;
 
@@ -23,23 +25,38 @@ double angle_between(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
+/// The wish of an edge to have no part along one of two directions, if that part is the smaller
+/// one: none where both are as large, so that diagonals of a cross stay what they are.
+DirectionTerm turned(const std::array<Index, 2>& edge, const Vec3& side, double part, double other,
+                     double square) {
+  const double square_length = other * other + part * part;
+  if (!(square_length > 0)) return {};
+  const double clear = std::max(0.0, other * other - part * part) / square_length;
+  return {{edge[0], edge[1], edge[0]},
+          {-1, 1, 0},
+          side,
+          kAlong * square * clear * clear * clear * clear,  // cosine of the double angle
+          part};
+}
+
 /// The wish of an edge to run along the cross at its end `v`. \param arm  one of the cross's arms
 DirectionTerm along_cross(const VertexPlaces& places, const Vec3& arm,
                           const std::array<Index, 2>& edge, Index v, double square) {
-  DirectionTerm term{{edge[0], edge[1], edge[0]}, {-1, 1, 0}};
   const Vec3 way = places.positions()[edge[1]] - places.positions()[edge[0]];
   const Vec3 other = places.normal(v).cross(arm);
   const double x = way.dot(arm);
   const double y = way.dot(other);
-  const double square_on_surface = x * x + y * y;
-  if (!(square_on_surface > kLeastTangential * kLeastTangential * way.squaredNorm())) return term;
-  term.side = std::abs(x) >= std::abs(y) ? other : arm;
-  term.residual = way.dot(term.side);
-  // Cosine of the double angle: half way between two arms neither is wanted more, and diagonals
-  // of the cross should stay what they are.
-  const double clear = std::abs(x * x - y * y) / square_on_surface;
-  term.weight = kAlong * square * clear * clear * clear * clear;
-  return term;
+  if (!(x * x + y * y > kLeastTangential * kLeastTangential * way.squaredNorm())) return {};
+  return std::abs(x) >= std::abs(y) ? turned(edge, other, y, x, square)
+                                    : turned(edge, arm, x, y, square);
+}
+
+/// The wish of an edge that leaves a feature or boundary line to do so at a right angle.
+DirectionTerm across_line(const VertexPlaces& places, const Vec3& tangent,
+                          const std::array<Index, 2>& edge, double square) {
+  const Vec3 way = places.positions()[edge[1]] - places.positions()[edge[0]];
+  const double along = way.dot(tangent);
+  return turned(edge, tangent, along, (way - along * tangent).norm(), square);
 }
 
 }  // namespace
@@ -77,6 +94,12 @@ std::vector<Index> FlowLines::corners_around(const std::vector<Index>& twin, Ind
   return corners;
 }
 
+FlowLines::Through FlowLines::line_through(Index before, Index vertex, Index after) const {
+  const double back = (mesh_.positions[vertex] - mesh_.positions[before]).norm();
+  const double ahead = (mesh_.positions[after] - mesh_.positions[vertex]).norm();
+  return {before, vertex, after, back + ahead > 0 ? back / (back + ahead) : 0.5};
+}
+
 void FlowLines::follow_lines(Index vertex, const std::vector<Index>& around) {
   std::vector<Index> ends;
   for (const Index c : around) {
@@ -84,13 +107,13 @@ void FlowLines::follow_lines(Index vertex, const std::vector<Index>& around) {
     ends.push_back(mesh_.corners[c + 1 == mesh_.offsets[f + 1] ? mesh_.offsets[f] : c + 1]);
   }
   if (ends.size() == 4) {
-    through_.push_back({ends[0], vertex, ends[2]});
-    through_.push_back({ends[1], vertex, ends[3]});
+    through_.push_back(line_through(ends[0], vertex, ends[2]));
+    through_.push_back(line_through(ends[1], vertex, ends[3]));
     return;
   }
   if (ends.size() != 3) return;
   for (int i = 0; i < 3; ++i) {
-    const Through line = {ends[(i + 1) % 3], vertex, ends[i]};
+    const Through line = line_through(ends[(i + 1) % 3], vertex, ends[i]);
     const Vec3& p = mesh_.positions[vertex];
     if (angle_between(mesh_.positions[line.before] - p, mesh_.positions[line.after] - p) <
         kJointAngle) {
@@ -126,16 +149,17 @@ std::vector<DirectionTerm> FlowLines::terms(const VertexPlaces& places, const Pr
                                             double square) const {
   std::vector<DirectionTerm> terms;
   const std::vector<Vec3>& p = places.positions();
-  for (const auto& [before, vertex, after] : through_) {
-    const Vec3 ahead = p[after] - p[vertex];
-    const Vec3 back = p[vertex] - p[before];
-    const double sum = ahead.norm() + back.norm();
-    if (!(sum > 0)) continue;
-    DirectionTerm term{{vertex, before, after}, {-1, ahead.norm() / sum, back.norm() / sum}};
-    term.side = places.normal(vertex).cross(ahead + back).normalized();
-    term.residual =
-        term.side.dot(term.factors[1] * p[before] + term.factors[2] * p[after] - p[vertex]);
+  for (const auto& [before, vertex, after, share] : through_) {
+    const Vec3 way = p[after] - p[before];
+    DirectionTerm term{{vertex, before, after}, {-1, 1 - share, share}};
+    const Vec3 off = (1 - share) * p[before] + share * p[after] - p[vertex];
+    term.side = places.normal(vertex).cross(way).normalized();
+    term.residual = term.side.dot(off);
     term.weight = kStraight * square;
+    terms.push_back(term);
+    term.side = term.side.cross(places.normal(vertex));
+    term.residual = term.side.dot(off);
+    term.weight = kEven * square;
     terms.push_back(term);
   }
   if (field == nullptr) return terms;
@@ -143,7 +167,11 @@ std::vector<DirectionTerm> FlowLines::terms(const VertexPlaces& places, const Pr
   for (Index v = 0; v < mesh_.vertex_count(); ++v) arms.push_back(places.cross_arm(*field, v));
   for (const auto& edge : edges_) {
     for (const Index v : edge) {
-      if (places.is_free(v)) terms.push_back(along_cross(places, arms[v], edge, v, square / 2));
+      if (places.is_free(v)) {
+        terms.push_back(along_cross(places, arms[v], edge, v, square / 2));
+      } else if (places.is_on_line(v)) {
+        terms.push_back(across_line(places, places.line_tangent(v), edge, square / 2));
+      }
     }
   }
   return terms;

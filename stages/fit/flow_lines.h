@@ -13,15 +13,16 @@ namespace strake::fitting {
 
 /// The wish that a sum of positions, each times its factor, had no part along `side`.
 struct DirectionTerm {
-  std::array<Index, 3> vertices;
-  std::array<double, 3> factors;
+  std::array<Index, 3> vertices = {0, 0, 0};
+  std::array<double, 3> factors = {0, 0, 0};
   Vec3 side = Vec3::Zero();  ///< unit
   double weight = 0;
   double residual = 0;  ///< the part there is
 };
 
 /// The lines that the edges of a result form, and where they want to go: straight on through every
-/// vertex where they can be followed, and along the arms of the cross field.
+/// vertex where they can be followed, at the pace they had when traced, along the arms of the cross
+/// field, and at a right angle off feature and boundary lines.
 class FlowLines {
  public:
   explicit FlowLines(const PolyMesh& mesh);
@@ -30,7 +31,7 @@ class FlowLines {
   [[nodiscard]] std::vector<std::vector<Index>> neighbours() const;
 
   /// All wishes at the present places.
-  /// \param field        nullptr: lines only want to be straight
+  /// \param field        nullptr: lines only want to be straight and even
   /// \param square       squared distance that an edge turned by one radian is worth
   [[nodiscard]] std::vector<DirectionTerm> terms(const VertexPlaces& places,
                                                  const PrincipalField* field, double square) const;
@@ -45,6 +46,7 @@ class FlowLines {
     Index before;
     Index vertex;
     Index after;
+    double share;  ///< of its length that lies before the vertex, to begin with
   };
   struct Joint {
     Index face;     ///< whose straight corner it is
@@ -53,6 +55,7 @@ class FlowLines {
 
   [[nodiscard]] std::vector<Index> corners_around(const std::vector<Index>& twin,
                                                   Index first) const;
+  [[nodiscard]] Through line_through(Index before, Index vertex, Index after) const;
   void follow_lines(Index vertex, const std::vector<Index>& around);
 
   const PolyMesh& mesh_;

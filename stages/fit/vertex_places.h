@@ -26,6 +26,9 @@ class VertexPlaces {
   /// Unit normal of the surface at the vertex's foot.
   [[nodiscard]] const Vec3& normal(Index v) const { return normals_[v]; }
   [[nodiscard]] bool is_free(Index v) const { return lines_[v].kind == Kind::free; }
+  [[nodiscard]] bool is_on_line(Index v) const { return lines_[v].kind == Kind::line; }
+  /// Unit direction of the line that the vertex slides along. \pre is_on_line(v)
+  [[nodiscard]] Vec3 line_tangent(Index v) const { return tangent(lines_[v]); }
   /// One arm of the field's cross at the vertex's foot; zero where it cancels.
   [[nodiscard]] Vec3 cross_arm(const PrincipalField& field, Index v) const;
   /// Projects onto the directions in which the vertex may move: rank 3, 1 or 0.
