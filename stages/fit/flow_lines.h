@@ -65,7 +65,9 @@ class FlowLines {
   std::vector<Joint> joints_;
 };
 
+/// Sum of weight times squared residual.
 double sum_of(const std::vector<DirectionTerm>& terms);
+/// Adds the least-squares problem of fulfilling the wishes by moves of the vertices.
 void add_to(BlockSystem& system, const std::vector<DirectionTerm>& terms);
 
 }  // namespace strake::fitting

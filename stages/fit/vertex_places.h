@@ -66,13 +66,13 @@ class VertexPlaces {
 
   const TriMesh& mesh_;
   const SurfaceDistance& surface_;
-  std::vector<Vec3> face_normals_;
-  std::vector<Vec3> wedge_normals_;
-  std::vector<Vec3> positions_;
-  std::vector<Vec3> normals_;
-  std::vector<LinePlace> lines_;
-  std::vector<Index> foot_face_;
-  std::vector<std::array<double, 3>> foot_;
+  std::vector<Vec3> face_normals_;           ///< of the input
+  std::vector<Vec3> wedge_normals_;          ///< of the input
+  std::vector<Vec3> positions_;              ///< [V] of the result
+  std::vector<Vec3> normals_;                ///< [V] at the feet
+  std::vector<LinePlace> lines_;             ///< [V]
+  std::vector<Index> foot_face_;             ///< [V]
+  std::vector<std::array<double, 3>> foot_;  ///< [V] barycentric
 };
 
 struct VertexPlaces::State {

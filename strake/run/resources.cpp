@@ -53,7 +53,7 @@ Resources default_resources(std::string_view program) {
   if (program == "smooth") return needs(1200, 100);
   if (program == "trace") return needs(1200, 400);
   if (program == "mesh") return needs(1500, 100);
-  if (program == "fit") return needs(400, 20);
+  if (program == "fit") return needs(1200, 60);
   if (program == "evaluate") return needs(1200, 50);
   return needs(1500, 400);
 }
