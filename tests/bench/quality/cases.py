@@ -4,10 +4,12 @@ Every run is kept under a digest of the programs, files and words that it was ma
 that was broken off goes on, and only what a changed program makes is made again.
 """
 
+import collections
 import hashlib
 import json
 import os
 import pathlib
+import threading
 from dataclasses import dataclass
 
 import documents
@@ -51,6 +53,7 @@ class Bench:
         self.strake = documents.program("strake")
         self.decimate = documents.program("strake-bench-decimate")
         self.digests = {}
+        self.locks = collections.defaultdict(threading.Lock)  # one a key: cases may share runs
 
     def reference(self, model):
         """A file with the surface of a model whose vertices are joined."""
@@ -66,11 +69,12 @@ class Bench:
         parts = [step, *(self._digest(path) for path in (*programs, *files)), *map(str, words)]
         key = hashlib.sha256("\n".join(parts).encode()).hexdigest()[:24]
         record, mesh = self.folder / f"{key}.json", self.folder / f"{key}.obj"
-        if not record.exists():
-            found = make(mesh)
-            draft = record.with_suffix(".draft")
-            draft.write_text(json.dumps(found), encoding="utf-8")
-            os.replace(draft, record)
+        with self.locks[key]:
+            if not record.exists():
+                found = make(mesh)
+                draft = record.with_suffix(".draft")
+                draft.write_text(json.dumps(found), encoding="utf-8")
+                os.replace(draft, record)
         return json.loads(record.read_text(encoding="utf-8")), mesh
 
     def census(self, model):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Remeshes the closed test models at several sizes and measures the results beside those of others.
 
-    quality.py [--models PATTERN...] [--most-faces N] [--work FOLDER] [--docs]
+    quality.py [--models PATTERN...] [--most-faces N] [--jobs N] [--work FOLDER] [--docs]
 
 Every model of the groups scan, cad and genus that is closed, oriented and manifold is remeshed to
 1/10 and 1/4 of its vertices, models with figures of Instant Meshes in docs/peers.csv also to its
@@ -11,10 +11,11 @@ Lindstrom-Turk, is the yardstick. All are measured by the independent meter (scr
 Tables and pictures go to the work folder; --docs writes docs/quality-bench.md and .csv and
 docs/images/bench. Runs are kept in the work folder, so a bench that was broken off goes on. Programs
 are taken from $STRAKE_BIN (default: build/bin; strake, strake-render, strake-bench-decimate), models
-from $STRAKE_MODELS. One thread; everything anew takes about half an hour.
+from $STRAKE_MODELS. Everything anew takes about half an hour of processor time.
 """
 
 import argparse
+import concurrent.futures
 import pathlib
 import sys
 
@@ -33,6 +34,8 @@ def parse_arguments():
     parser.add_argument("--models", nargs="+", default=[], metavar="PATTERN",
                         help="only models whose GROUP/FILE contains one of these")
     parser.add_argument("--most-faces", type=int, help="leave out models with more faces")
+    parser.add_argument("--jobs", type=int, default=1,
+                        help="cases at the same time, of one thread each (default: %(default)s)")
     parser.add_argument("--work", default=ROOT / "build" / "bench" / "quality",
                         help="folder of kept runs and tables (default: %(default)s)")
     parser.add_argument("--no-pictures", action="store_true", help="only measure")
@@ -48,11 +51,11 @@ def main():
     if not chosen:
         documents.fail("no model of that name")
     rows = []
-    for case in chosen:
-        row = bench.row(case)
-        rows.append(row)
-        print(f"{case.model:32s} {case.size:5s}", *(f"{cell or '-':>7s}" for cell in summary.cells(row)),
-              row["fault"], flush=True)
+    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
+        for case, row in zip(chosen, pool.map(bench.row, chosen)):
+            rows.append(row)
+            print(f"{case.model:32s} {case.size:5s}",
+                  *(f"{cell or '-':>7s}" for cell in summary.cells(row)), row["fault"], flush=True)
     goals, table = summary.goal_table(rows), summary.case_table(rows)
     measured_by = f"Measured by {bench.judge.name}.\n"
     if left_out:
