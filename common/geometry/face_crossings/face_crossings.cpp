@@ -34,6 +34,8 @@ std::optional<Projection> projection_of(const Vec3& a, const Vec3& b, const Vec3
   return std::nullopt;
 }
 
+bool has_area(const Triangle& t) { return projection_of(t[0], t[1], t[2]).has_value(); }
+
 bool is_between(const Vec2& p, const Vec2& a, const Vec2& b) {
   return (p.array() >= a.array().min(b.array())).all() &&
          (p.array() <= a.array().max(b.array())).all();
@@ -94,6 +96,7 @@ bool is_folded(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b) {
 }  // namespace
 
 bool triangles_cross(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b) {
+  if (!has_area(a) || !has_area(b)) return false;
   int shared = 0;
   std::array<int, 3> in_a = {0, 0, 0};
   std::array<int, 3> in_b = {0, 0, 0};
@@ -130,7 +133,7 @@ std::vector<std::array<Index, 2>> find_crossing_faces(const std::vector<Vec3>& p
   for (std::size_t t = 0; t < triangles.corners.size(); ++t) {
     const auto& [a, b, c] = triangles.corners[t];
     const Triangle shape = {positions[a], positions[b], positions[c]};
-    if (!projection_of(shape[0], shape[1], shape[2])) continue;
+    if (!has_area(shape)) continue;
     shapes.push_back(shape);
     faces.push_back(triangles.face[t]);
     boxes.emplace_back(shape[0]);

@@ -10,7 +10,7 @@ namespace strake {
 
 /// Whether two triangles meet anywhere but in the corners and edges they share. Corners at the same
 /// place are shared; triangles folded flat onto each other over a shared edge, and those at the
-/// same three places, meet. Exact, see exact_predicates.h. \pre both have an area
+/// same three places, meet. What has no area meets nothing. Exact, see exact_predicates.h.
 bool triangles_cross(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b);
 
 /// Finds the pairs of faces whose triangles cross. Triangles without area are left out.

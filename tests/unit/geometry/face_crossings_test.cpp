@@ -104,6 +104,20 @@ TEST(TrianglesCross, WhereTheyTouchOrLieOnEachOther) {
   EXPECT_TRUE(triangles_cross(a, a));
 }
 
+// Faces of a result may shrink to a line or a point; what has no area meets nothing.
+TEST(TrianglesCross, NotWithoutAnArea) {
+  const Triangle a = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+  const Triangle line = {Vec3(0.2, 0.2, 0), Vec3(0.4, 0.2, 0), Vec3(0.3, 0.2, 0)};
+  const Triangle through = {Vec3(0.2, 0.2, -1), Vec3(0.2, 0.2, 1), Vec3(0.2, 0.2, 0.5)};
+  const Triangle edge = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.5, 0, 0)};
+  const Triangle point = {Vec3(0, 0, 0), Vec3(0, 0, 0), Vec3(0, 0, 0)};
+  for (const Triangle& b : {line, through, edge, point}) {
+    EXPECT_FALSE(triangles_cross(a, b));
+    EXPECT_FALSE(triangles_cross(b, a));
+    EXPECT_FALSE(triangles_cross(b, b));
+  }
+}
+
 PolyMesh torus() {
   SampleOptions options;
   options.faces = 3000;
