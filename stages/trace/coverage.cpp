@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace strake {
@@ -10,12 +11,38 @@ namespace {
 /// Distance of samples inside large faces, in line distances.
 constexpr double kSampleDistance = 0.8;
 constexpr int kMostSamplesPerFace = 20000;
+constexpr double kRounding = 1e-9;     ///< of distances between rows
 constexpr std::uint8_t kBothArms = 3;  ///< the bits of arm_bit
 
 /// Bit of the arm of a cross that a direction follows.
 std::uint8_t arm_bit(const Vec3& arm, const Vec3& flat) {
   const double c = arm.dot(flat);
   return c * c >= 0.5 * flat.squaredNorm() ? 1 : 2;
+}
+
+/// How the samples of a face lie: in rows parallel to its longest edge.
+struct Rows {
+  int base = 0;  ///< corner where the longest edge starts
+  double longest = 0;
+  Vec3 origin;  ///< the position of that corner
+  Vec3 up;      ///< unit, from row to row
+};
+
+Rows rows_of(const TriMesh& mesh, Index face) {
+  Rows rows;
+  std::array<Vec3, 3> p;
+  for (int i = 0; i < 3; ++i) p[i] = mesh.positions[mesh.faces[face][i]];
+  for (int i = 0; i < 3; ++i) {
+    const double length = (p[(i + 1) % 3] - p[i]).norm();
+    if (length <= rows.longest) continue;
+    rows.longest = length;
+    rows.base = i;
+  }
+  rows.origin = p[rows.base];
+  const Vec3 along = (p[(rows.base + 1) % 3] - rows.origin) / rows.longest;
+  const Vec3 top = p[(rows.base + 2) % 3] - rows.origin;
+  rows.up = (top - top.dot(along) * along).normalized();
+  return rows;
 }
 
 }  // namespace
@@ -33,25 +60,17 @@ Coverage::Coverage(const TraceDomain& domain)
 /// Rows of samples parallel to the longest edge, each a line distance from the next.
 void Coverage::sample_face(Index face) {
   const TriMesh& mesh = domain_.mesh;
-  int base = 0;
-  double longest = 0;
+  const Rows rows = rows_of(mesh, face);
   double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 3; ++i) {
-    const Index h = 3 * face + i;
-    const double length = (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).norm();
-    if (length > longest) {
-      longest = length;
-      base = i;
-    }
-    const Index w = mesh.face_wedges[face][i];
+  for (const Index w : mesh.face_wedges[face]) {
     least = std::min({least, domain_.spacing.along[w], domain_.spacing.across[w]});
   }
-  if (longest < 1.5 * least) return;
+  if (rows.longest < 1.5 * least) return;
   const FieldContext context = field_context(domain_, face);
-  const Vec2& a = context.chart.corner[base];
-  const Vec2& b = context.chart.corner[(base + 1) % 3];
-  const Vec2& top = context.chart.corner[(base + 2) % 3];
-  const Vec2 along = (b - a) / longest;
+  const Vec2& a = context.chart.corner[rows.base];
+  const Vec2& b = context.chart.corner[(rows.base + 1) % 3];
+  const Vec2& top = context.chart.corner[(rows.base + 2) % 3];
+  const Vec2 along = (b - a) / rows.longest;
   const double height = along.x() * (top - a).y() - along.y() * (top - a).x();
   const auto distance_at = [&](const Vec2& p) {
     const LocalSpacing local = spacing_at(domain_, context, p, along);
@@ -62,7 +81,7 @@ void Coverage::sample_face(Index face) {
   while (up < height && budget > 0) {
     const double share = up / height;
     const Vec2 start = a + share * (top - a);
-    const double width = (1 - share) * longest;
+    const double width = (1 - share) * rows.longest;
     double next_row = std::numeric_limits<double>::infinity();
     for (double x = std::min(0.5 * width, 0.5 * distance_at(start)); x < width && budget > 0;) {
       const Vec2 p = start + x * along;
@@ -95,9 +114,20 @@ void Coverage::mark(const std::vector<Index>& faces, const Vec3& point, const Ve
       const Vec3 flat = direction - normal * normal.dot(direction);
       wedge_marks_[w] |= arm_bit(domain_.field.cross[w], flat);
     }
-    for (Index p = offsets_[f]; p < offsets_[f + 1]; ++p) {
-      if ((points_[p].position - point).squaredNorm() > limit) continue;
-      points_[p].marks |= arm_bit(points_[p].arm, direction);
+    if (offsets_[f] == offsets_[f + 1]) continue;
+    const Rows rows = rows_of(mesh, f);
+    const double middle = rows.up.dot(point - rows.origin);
+    const auto first = points_.begin() + offsets_[f];
+    const auto last = points_.begin() + offsets_[f + 1];
+    const double margin = (1 + kRounding) * distance;
+    for (auto p = std::partition_point(first, last,
+                                       [&](const Point& q) {
+                                         return rows.up.dot(q.position - rows.origin) <
+                                                middle - margin;
+                                       });
+         p != last && rows.up.dot(p->position - rows.origin) <= middle + margin; ++p) {
+      if ((p->position - point).squaredNorm() > limit) continue;
+      p->marks |= arm_bit(p->arm, direction);
     }
   }
 }
