@@ -224,7 +224,8 @@ Reader::Reader(const std::filesystem::path& path) : File(path) {
     throw InputError(path.string() + ": is not a regular file");
   }
   id_ = H5Fopen(shown_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (id_ < 0) fail("", "is not an artifact of strake, or is damaged; strake-import makes one of a mesh file");
+  if (id_ < 0)
+    fail("", "is not an artifact of strake, or is damaged; strake-import makes one of a mesh file");
 }
 
 bool Reader::has(const std::string& name) const {

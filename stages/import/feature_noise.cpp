@@ -36,8 +36,8 @@ double jaggedness(const TriMesh& mesh, const std::vector<Index>& line) {
   const bool is_closed = mesh.to(line.back()) == mesh.from(line.front());
   std::vector<Vec3> turns(count, Vec3::Zero());  // at the start of each edge
   for (std::size_t i = is_closed ? 0 : 1; i < count; ++i) {
-    turns[i] = turn_between(edge_vector(mesh, line[(i + count - 1) % count]),
-                            edge_vector(mesh, line[i]));
+    turns[i] =
+        turn_between(edge_vector(mesh, line[(i + count - 1) % count]), edge_vector(mesh, line[i]));
   }
   double changes = 0;
   double length = 0;

@@ -34,12 +34,12 @@ void draw(TriMesh& mesh, const std::vector<Vec3>& points) {
     bool found = false;
     import::for_each_outgoing(mesh, vertex_at(mesh, points[i]), [&](Index h) {
       if (mesh.to(h) != to) return;
-      import::set_feature(mesh, h, true);
-      found = true;
-    });
-    EXPECT_TRUE(found) << "no edge to " << points[i + 1].transpose();
-  }
+    import::set_feature(mesh, h, true);
+    found = true;
+  });
+  EXPECT_TRUE(found) << "no edge to " << points[i + 1].transpose();
 }
+}  // namespace
 
 /// Edges that are left of those drawn, where the ground is as rough everywhere.
 Index left_on(double roughness, TriMesh mesh, const std::vector<Vec3>& points) {
@@ -128,5 +128,5 @@ TEST(FeatureNoise, WhatRunsAroundOneFaceIsASpeck) {
   EXPECT_EQ(left_on(0, mesh, face), 0);
 }
 
-}  // namespace
+}  // namespace strake
 }  // namespace strake
