@@ -84,6 +84,8 @@ class ArtifactReader {
                                      hdf5::Layout layout = hdf5::Layout::table) const {
     return file_.dataset<Row>(group_ + "/" + name, layout);
   }
+  /// Whether there is an own dataset of this name; most have to be there.
+  [[nodiscard]] bool has(const std::string& name) const { return file_.has(group_ + "/" + name); }
   /// Rows of a dataset, for reading it in blocks.
   template <class Row>
   [[nodiscard]] std::int64_t row_count(const std::string& name,

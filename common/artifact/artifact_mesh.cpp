@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "common/artifact/artifact_attributes.h"
 #include "common/artifact/artifact_file.h"
 
 namespace strake {
@@ -51,6 +52,7 @@ bool write_artifact(const std::filesystem::path& path, const TriMesh& mesh,
   file.show("is_corner", "PointData/is_corner");
   file.show("source_vertex", "PointData/source_vertex");
   file.show("source_face", "CellData/source_face");
+  write_attributes(mesh.attributes, file);
   return file.commit();
 }
 
@@ -96,6 +98,7 @@ TriMesh read_tri_mesh(const std::filesystem::path& path) {
   file.require_codes(mesh.is_corner, 2, "is_corner");
   require_connected(mesh, file);
 
+  mesh.attributes = read_attributes(file, vertices, 3 * faces, faces);
   mesh.origin = origin.front();
   mesh.diagonal = diagonal.front();
   return mesh;

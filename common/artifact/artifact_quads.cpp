@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "common/artifact/artifact_attributes.h"
 #include "common/artifact/artifact_file.h"
 
 namespace strake {
@@ -25,6 +26,7 @@ bool write_artifact(const std::filesystem::path& path, const QuadMesh& quads,
   for (const char* name : {"source_face", "source_barycentric", "source_lines"}) {
     file.show(name, std::string("PointData/") + name);
   }
+  write_attributes(mesh.attributes, file);
   return file.commit();
 }
 
@@ -50,6 +52,8 @@ QuadMesh read_quad_mesh(const std::filesystem::path& path) {
   file.require_indices(quads.provenance.face, kNone, kAnyIndex, "source_face");
   file.require_indices(quads.provenance.lines, kNone, kAnyIndex, "source_lines");
   file.require_finite(quads.provenance.barycentric, "source_barycentric");
+  quads.mesh.attributes =
+      read_attributes(file, vertices, quads.mesh.corners.size(), quads.mesh.offsets.size() - 1);
   return quads;
 }
 

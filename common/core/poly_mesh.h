@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/core/attributes.h"
 #include "common/core/types.h"
 
 namespace strake {
@@ -16,6 +17,7 @@ struct PolyMesh {
   std::vector<Index> offsets = {
       0};                      ///< [F + 1] face f has the corners offsets[f] .. offsets[f + 1] - 1
   std::vector<Index> corners;  ///< vertex of each corner, counter-clockwise
+  Attributes attributes = {};
 
   [[nodiscard]] Index vertex_count() const { return static_cast<Index>(positions.size()); }
   [[nodiscard]] Index face_count() const { return static_cast<Index>(offsets.size()) - 1; }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/core/attributes.h"
 #include "common/core/types.h"
 
 namespace strake {
@@ -34,6 +35,8 @@ struct TriMesh {
 
   std::vector<Index> source_vertex;  ///< [V] index in the file read
   std::vector<Index> source_face;    ///< [F] index in the file read (before triangulation)
+
+  Attributes attributes;  ///< corner i of face f is half-edge 3 f + i
 
   Vec3 origin = Vec3::Zero();  ///< to be added to `positions` for model coordinates
   double diagonal = 0;         ///< of the bounding box, model units

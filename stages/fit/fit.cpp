@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "common/geometry/carry_attributes.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/surface_distance/surface_distance.h"
 #include "stages/fit/block_system.h"
@@ -177,6 +178,7 @@ FitResult fit_vertices(const TriMesh& mesh, const PrincipalField* field, const Q
     observer.report("moving vertices", double(rounds + 1) / static_cast<double>(options.rounds));
   }
   fit.places().store(result.quads);
+  result.quads.mesh.attributes = carry_attributes(mesh, result.quads.mesh, result.quads.provenance);
   double moved = 0;
   for (std::size_t v = 0; v < quads.mesh.positions.size(); ++v) {
     moved = std::max(moved, (result.quads.mesh.positions[v] - quads.mesh.positions[v]).norm());

@@ -51,6 +51,8 @@ TriMesh assemble(const Soup& soup) {
     }
     mesh.faces.push_back(face);
     mesh.source_face.push_back(soup.source_face[f]);
+    if (soup.texture.empty()) continue;
+    for (const TexturePoint& point : soup.texture[f]) mesh.attributes.texture.push_back(point);
   }
   build_topology(mesh);
   return mesh;

@@ -8,7 +8,8 @@ namespace strake::import {
 /// Turns a manifold soup into a mesh: faces breadth-first from the first one of each component,
 /// vertices in order of first use, so that neighbours lie near each other in memory. The order does
 /// not depend on coordinates. Vertices that no face uses are left out.
-/// \return positions, faces, sources and topology; no features, wedges, origin, diagonal or id
+/// \return positions, faces, texture coordinates, sources and topology; no features, wedges,
+/// origin, diagonal or id
 TriMesh assemble(const Soup& soup);
 
 }  // namespace strake::import

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "stages/import/attribute_borders.h"
 #include "stages/import/face_normals.h"
 #include "stages/import/feature_graph.h"
 #include "stages/import/feature_noise.h"
@@ -129,32 +130,46 @@ class Bridges {
   std::vector<Index> degree_;
 };
 
+void find_creases(TriMesh& mesh, double angle_deg, FeatureCounts& counts) {
+  constexpr double kWeak = 0.6;
+  constexpr double kRoughness = 3;
+  const double angle = angle_deg * kDegree;
+  const std::vector<float> bend = bend_angles(mesh);
+  Roughness roughness(mesh, bend, angle);
+  std::vector<float> excess(bend.size(), 0);  // bend beyond the roughness, where it matters
+  std::vector<float> rough_at(bend.size(), 0);
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    if (mesh.twin[h] == kNone || h > mesh.twin[h] || bend[h] <= kWeak * angle) continue;
+    const double rough = roughness(h);
+    rough_at[h] = rough_at[mesh.twin[h]] = static_cast<float>(rough);
+    excess[h] = excess[mesh.twin[h]] = static_cast<float>(bend[h] - rough);
+    if (bend[h] - kRoughness * rough <= angle) continue;
+    set_feature(mesh, h, true);
+    ++counts.strong_edges;
+  }
+  counts.bridging_edges = Bridges(mesh, excess, kWeak * angle).run();
+  counts.dropped_edges = drop_noise(mesh, rough_at);
+}
+
+void flag_attribute_borders(TriMesh& mesh, const FeatureRules& rules, FeatureCounts& counts) {
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    if (mesh.twin[h] == kNone || h > mesh.twin[h]) continue;
+    const bool is_border = rules.labels && is_label_border(mesh, h);
+    if (!is_border && !(rules.seams && is_seam(mesh, h))) continue;
+    ++(is_border ? counts.label_edges : counts.seam_edges);
+    set_feature(mesh, h, true);
+  }
+}
+
 }  // namespace
 
-FeatureCounts find_features(TriMesh& mesh, double angle_deg) {
+FeatureCounts find_features(TriMesh& mesh, const FeatureRules& rules) {
   FeatureCounts counts;
   mesh.is_feature.assign(mesh.halfedge_count(), 0);
-  if (angle_deg < 180) {
-    constexpr double kWeak = 0.6;
-    constexpr double kRoughness = 3;
-    const double angle = angle_deg * kDegree;
-    const std::vector<float> bend = bend_angles(mesh);
-    Roughness roughness(mesh, bend, angle);
-    std::vector<float> excess(bend.size(), 0);  // bend beyond the roughness, where it matters
-    std::vector<float> rough_at(bend.size(), 0);
-    for (Index h = 0; h < mesh.halfedge_count(); ++h) {
-      if (mesh.twin[h] == kNone || h > mesh.twin[h] || bend[h] <= kWeak * angle) continue;
-      const double rough = roughness(h);
-      rough_at[h] = rough_at[mesh.twin[h]] = static_cast<float>(rough);
-      excess[h] = excess[mesh.twin[h]] = static_cast<float>(bend[h] - rough);
-      if (bend[h] - kRoughness * rough <= angle) continue;
-      set_feature(mesh, h, true);
-      ++counts.strong_edges;
-    }
-    counts.bridging_edges = Bridges(mesh, excess, kWeak * angle).run();
-    counts.dropped_edges = drop_noise(mesh, rough_at);
-  }
-  counts.edges = counts.strong_edges + counts.bridging_edges - counts.dropped_edges;
+  if (rules.angle_deg < 180) find_creases(mesh, rules.angle_deg, counts);
+  flag_attribute_borders(mesh, rules, counts);
+  counts.edges =
+      static_cast<Index>(std::count(mesh.is_feature.begin(), mesh.is_feature.end(), 1) / 2);
   counts.corners = find_corners(mesh);
   return counts;
 }

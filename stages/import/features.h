@@ -4,15 +4,24 @@
 
 namespace strake::import {
 
+/// Which edges are features.
+struct FeatureRules {
+  double angle_deg = 40;  ///< in [0, 180]; bent by more are creases; 180: no creases
+  bool labels = true;     ///< borders of labels
+  bool seams = true;      ///< seams of texture coordinates
+};
+
 struct FeatureCounts {
   Index strong_edges = 0;    ///< bent by more than the angle
   Index bridging_edges = 0;  ///< bent less, added between strong ones
   Index dropped_edges = 0;   ///< of what was noise
+  Index label_edges = 0;     ///< between faces of different labels
+  Index seam_edges = 0;      ///< where the sides differ in texture coordinates, and not in labels
   Index edges = 0;           ///< in the end
   Index corners = 0;
 };
 
-/// Flags crease edges (`is_feature`) and the nodes of crease and boundary lines (`is_corner`).
+/// Flags feature edges (`is_feature`) and the nodes of feature and boundary lines (`is_corner`).
 ///
 /// An edge is a crease where its faces' normals differ by more than `angle_deg`, and by more than
 /// that by thrice the roughness there: what the median bend of the edges around it (those bent by
@@ -24,14 +33,15 @@ struct FeatureCounts {
 /// What is noise then is dropped, as `drop_noise` states. The normal of a sliver, which rounding of
 /// the coordinates may have turned, is taken from the neighbour across a long edge.
 ///
+/// Borders of labels and seams are features whatever their shape; none of this applies to them.
+///
 /// Corners are the vertices where other than two feature or boundary edges meet, or where such a
 /// line turns by more than 50 degrees, measured over 1 % of the diagonal on each side (along a
 /// boundary at least three mean edges, ten where it is ragged, at most a twelfth of a closed line)
 /// and only where it turns most. Closed boundaries shorter than 4 % of the diagonal have no corners
 /// by turning.
 ///
-/// \param angle_deg  in [0, 180]; 180 flags no creases
 /// \pre build_topology has run
-FeatureCounts find_features(TriMesh& mesh, double angle_deg);
+FeatureCounts find_features(TriMesh& mesh, const FeatureRules& rules);
 
 }  // namespace strake::import

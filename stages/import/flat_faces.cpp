@@ -168,6 +168,7 @@ class FlatFaceRemover {
 
     const std::array<Index, 4> beyond = {twin_[next(h)], twin_[prev(h)], twin_[next(t)],
                                          twin_[prev(t)]};
+    if (!soup_.texture.empty()) flip_texture(h, t);
     const Index f = 3 * (h / 3);
     const Index g = 3 * (t / 3);
     soup_.faces[f / 3] = first;
@@ -178,6 +179,16 @@ class FlatFaceRemover {
     link(g + 1, beyond[1]);
     link(g + 2, beyond[2]);
     return true;
+  }
+
+  /// What `try_flip` does to the corners of two faces. Of the two sides of the edge that goes, the
+  /// one without area hardly counts.
+  void flip_texture(Index h, Index t) {
+    const auto at = [&](Index corner) { return soup_.texture[corner / 3][corner % 3]; };
+    const std::array<TexturePoint, 3> first = {at(prev(h)), at(prev(t)), at(t)};
+    const std::array<TexturePoint, 3> second = {at(prev(t)), at(prev(h)), at(next(t))};
+    soup_.texture[h / 3] = first;
+    soup_.texture[t / 3] = second;
   }
 
   void link(Index h, Index t) {

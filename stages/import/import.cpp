@@ -12,6 +12,7 @@
 #include "common/core/error.h"
 #include "common/geometry/topology/topology.h"
 #include "stages/import/assemble.h"
+#include "stages/import/carry.h"
 #include "stages/import/features.h"
 #include "stages/import/flat_faces.h"
 #include "stages/import/sheets.h"
@@ -132,8 +133,37 @@ void report_features(const import::FeatureCounts& counts, Report& report) {
   report.set("features.strong_edges", counts.strong_edges);
   report.set("features.bridging_edges", counts.bridging_edges);
   report.set("features.dropped_edges", counts.dropped_edges);
+  report.set("features.label_edges", counts.label_edges);
+  report.set("features.seam_edges", counts.seam_edges);
   report.set("features.edges", counts.edges);
   report.set("features.corners", counts.corners);
+}
+
+import::FeatureRules feature_rules(const ImportOptions& options){
+    const auto wants = [&](const char* kind){return options.attribute_features == "all" ||
+                                                    options.attribute_features == kind;
+};  // namespace
+return {options.feature_angle_deg, wants("labels"), wants("seams")};
+}  // namespace strake
+
+/// Seams of an atlas of many small charts would leave no room for anything but features.
+void warn_of_many_seams(const TriMesh& mesh, const import::FeatureCounts& counts, Report& report) {
+  constexpr double kMany = 0.05;
+  const double share = double(counts.seam_edges) / (1.5 * mesh.face_count());
+  if (share <= kMany) return;
+  report.warn(
+      fmt::format("{:.0f} % of the edges are seams of texture coordinates and are kept as "
+                  "features; --attribute-features labels leaves them out",
+                  100 * share));
+}
+
+void report_attributes(const Attributes& attributes, Report& report) {
+  report.set("attributes.colours", !attributes.colour.empty());
+  report.set("attributes.texture_coordinates", !attributes.texture.empty());
+  std::string kinds;
+  for (const FaceLabels& labels : attributes.labels)
+    kinds += (kinds.empty() ? "" : ", ") + labels.name;
+  report.set("attributes.labels", kinds);
 }
 
 std::int64_t count_unreferenced(const PolyMesh& mesh) {
@@ -167,11 +197,12 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
 
   observer.report("ordering", 0.5);
   result.mesh = import::assemble(triangles);
+  import::carry_attributes(soup, result.mesh);
   result.mesh.origin = frame.origin;
   result.mesh.diagonal = frame.diagonal;
   observer.report("finding features", 0.7);
-  const import::FeatureCounts features =
-      import::find_features(result.mesh, options.feature_angle_deg);
+  const import::FeatureCounts features = import::find_features(result.mesh, feature_rules(options));
+  if (options.no_attributes) result.mesh.attributes = {};
   build_wedges(result.mesh);
   observer.report("checking", 0.8);
   validate(result.mesh);
@@ -182,6 +213,8 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
   report_census(result.mesh, result.report);
   report_repairs(repairs, frame.diagonal, result.report);
   report_features(features, result.report);
+  warn_of_many_seams(result.mesh, features, result.report);
+  report_attributes(result.mesh.attributes, result.report);
   observer.report("done", 1);
   return result;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "common/core/observer.h"
 #include "common/core/options.h"
 #include "common/core/poly_mesh.h"
@@ -10,7 +12,9 @@ namespace strake {
 
 struct ImportOptions {
   double feature_angle_deg = 40;  ///< edges bent by more than this are feature edges; 180: none
-  bool strict = false;            ///< refuse what would have to be repaired
+  std::string attribute_features = "all";  ///< borders that are features: labels, seams, none
+  bool no_attributes = false;              ///< leave out colours, texture coordinates and labels
+  bool strict = false;                     ///< refuse what would have to be repaired
 
   OptionList declare();
 };

@@ -10,6 +10,17 @@ OptionList ImportOptions::declare() {
        .help = "Edges bent by more than this are kept as feature edges; 180 keeps none.",
        .min = 0,
        .max = 180},
+      {.name = "attribute-features",
+       .target = &attribute_features,
+       .unit = "",
+       .help =
+           "Borders that are feature edges too: of labels of faces, seams of texture coordinates, "
+           "or both.",
+       .choices = {"all", "labels", "seams", "none"}},
+      {.name = "no-attributes",
+       .target = &no_attributes,
+       .unit = "",
+       .help = "Leave out colours, texture coordinates and labels of faces."},
       {.name = "strict",
        .target = &strict,
        .unit = "",

@@ -126,6 +126,7 @@ class Orienter {
     for (Index f = 0; f < soup_.face_count(); ++f) {
       if (flip[f] == 0) continue;
       std::swap(soup_.faces[f][1], soup_.faces[f][2]);
+      if (!soup_.texture.empty()) std::swap(soup_.texture[f][1], soup_.texture[f][2]);
       ++repairs_.flipped_faces;
     }
   }
@@ -246,6 +247,18 @@ void split_vertices(Soup& soup, const std::vector<Index>& twin, Repairs& repairs
   soup.faces = std::move(faces);
 }
 
+/// Gives the corners of a face that is cut in the middle of edge e, and of the new face, their
+/// texture coordinates.
+void split_texture(Soup& soup, Index e) {
+  std::array<TexturePoint, 3>& old = soup.texture[e / 3];
+  const TexturePoint from = old[e % 3];
+  const TexturePoint to = old[next(e) % 3];
+  const TexturePoint middle = {0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1])};
+  const std::array<TexturePoint, 3> added = {middle, to, old[prev(e) % 3]};
+  old[next(e) % 3] = middle;
+  soup.texture.push_back(added);
+}
+
 /// Puts a vertex into the middle of an edge; its one or two faces become two each.
 void split_edge(Soup& soup, std::vector<Index>& twin, Index h) {
   const Index from = soup.from(h);
@@ -260,6 +273,7 @@ void split_edge(Soup& soup, std::vector<Index>& twin, Index h) {
     const Triangle face = {middle, soup.to(e), soup.from(prev(e))};
     soup.faces.push_back(face);
     soup.source_face.push_back(Index{soup.source_face[e / 3]});
+    if (!soup.texture.empty()) split_texture(soup, e);
     soup.faces[e / 3][(e % 3 + 1) % 3] = middle;
     twin.insert(twin.end(), 3, kNone);
     if (twin[next(e)] != kNone) pair_up(twin, 3 * added + 1, twin[next(e)]);

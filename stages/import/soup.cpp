@@ -64,8 +64,10 @@ void remove_faces(Soup& soup, const std::vector<std::uint8_t>& remove) {
   for (Index f = 0; f < soup.face_count(); ++f) {
     if (remove[f] != 0) continue;
     soup.faces[kept] = soup.faces[f];
+    if (!soup.texture.empty()) soup.texture[kept] = soup.texture[f];
     soup.source_face[kept++] = soup.source_face[f];
   }
+  if (!soup.texture.empty()) soup.texture.resize(kept);
   soup.faces.resize(kept);
   soup.source_face.resize(kept);
 }

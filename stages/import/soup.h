@@ -18,6 +18,7 @@ struct Soup {
   std::vector<Index> source_vertex;  ///< [V] index in the input, kNone of inserted vertices
   std::vector<Triangle> faces;       ///< [F]
   std::vector<Index> source_face;    ///< [F] index in the input
+  std::vector<std::array<TexturePoint, 3>> texture;  ///< [F] of corners; empty without
 
   [[nodiscard]] Index vertex_count() const { return static_cast<Index>(positions.size()); }
   [[nodiscard]] Index face_count() const { return static_cast<Index>(faces.size()); }

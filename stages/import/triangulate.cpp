@@ -262,44 +262,53 @@ class Triangulator {
       ++repairs_.unusable_faces;
       return;
     }
-    // Triangles with a repeated corner are counted as degenerate later on.
-    if (face.size() == 3) return add({face[0], face[1], face[2]}, f);
     polygon_.clear();
+    corner_.clear();
     for (std::size_t i = 0; i < face.size(); ++i) {
-      if (face[i] != face[(i + 1) % face.size()]) polygon_.push_back(face[i]);
+      // Triangles with a repeated corner are counted as degenerate later on.
+      if (face.size() > 3 && face[i] == face[(i + 1) % face.size()]) continue;
+      polygon_.push_back(face[i]);
+      corner_.push_back(mesh_.offsets[f] + static_cast<Index>(i));
     }
     if (polygon_.size() < 3) {
       ++repairs_.degenerate_faces;
       return;
     }
-    ++repairs_.triangulated_faces;
+    if (face.size() > 3) ++repairs_.triangulated_faces;
     add_polygon(f);
   }
 
   void add_polygon(Index f) {
     const auto& p = polygon_;
-    if (p.size() == 4) {
+    const int sides = static_cast<int>(p.size());
+    if (sides == 4) {
       if (!taken_) taken_.emplace(mesh_);
       const bool first = cut_from_first_corner(mesh_.positions, p, *taken_);
       taken_->take(p[first ? 0 : 1], p[first ? 2 : 3], p);
-      add(first ? Triangle{p[0], p[1], p[2]} : Triangle{p[1], p[2], p[3]}, f);
-      add(first ? Triangle{p[0], p[2], p[3]} : Triangle{p[1], p[3], p[0]}, f);
-    } else if (p.size() == 3 || !(newell_normal(mesh_.positions, p).squaredNorm() > 0)) {
-      for (std::size_t i = 1; i + 1 < p.size(); ++i) add({p[0], p[i], p[i + 1]}, f);
+      const int start = first ? 0 : 1;
+      add(f, start, start + 1, start + 2);
+      add(f, start, start + 2, (start + 3) % 4);
+    } else if (sides == 3 || !(newell_normal(mesh_.positions, p).squaredNorm() > 0)) {
+      for (int i = 1; i + 1 < sides; ++i) add(f, 0, i, i + 1);
     } else {
-      EarClipper(mesh_.positions, p).run([&](int a, int b, int c) { add({p[a], p[b], p[c]}, f); });
+      EarClipper(mesh_.positions, p).run([&](int a, int b, int c) { add(f, a, b, c); });
     }
   }
 
-  void add(const Triangle& triangle, Index f) {
-    soup_.faces.push_back(triangle);
+  /// Adds a triangle of three corners of the polygon.
+  void add(Index f, int a, int b, int c) {
+    soup_.faces.push_back({polygon_[a], polygon_[b], polygon_[c]});
     soup_.source_face.push_back(f);
+    const auto& texture = mesh_.attributes.texture;
+    if (texture.empty()) return;
+    soup_.texture.push_back({texture[corner_[a]], texture[corner_[b]], texture[corner_[c]]});
   }
 
   const PolyMesh& mesh_;
   Repairs& repairs_;
   Soup soup_;
-  std::vector<Index> polygon_;
+  std::vector<Index> polygon_;       ///< vertices
+  std::vector<Index> corner_;        ///< of the input, for each of `polygon_`
   std::optional<TakenEdges> taken_;  ///< once there is a quad
 };
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/core/error.h"
+#include "common/geometry/carry_attributes.h"
 #include "common/geometry/poly_topology/poly_topology.h"
 #include "common/geometry/topology/topology.h"
 #include "stages/mesh/halfedge_check.h"
@@ -215,6 +216,7 @@ MeshResult mesh_lines(const TriMesh& mesh, const LineSet& lines, const MeshOptio
   }
   MeshResult result;
   result.quads = assemble(mesh, cells.graph);
+  result.quads.mesh.attributes = carry_attributes(mesh, result.quads.mesh, result.quads.provenance);
 
   Report& report = result.report;
   const auto kept = std::count(starved.begin(), starved.end(), 1);

@@ -14,6 +14,11 @@ PolyMesh read_ply(std::string_view bytes, ReadReport& report);
 PolyMesh read_off(std::string_view bytes, ReadReport& report);
 PolyMesh read_stl(std::string_view bytes, ReadReport& report);
 
+/// Whether a PLY property of faces that is an integer says which part they belong to: label,
+/// labels, segment, segment_id, region, group, part, patch, material, material_index, object,
+/// category, and what our own writer names after OBJ: o, g, usemtl.
+bool is_label_name(std::string_view name);
+
 /// Whether the bytes are an STL file; binary ones are told by their size.
 bool looks_like_stl(std::string_view bytes);
 bool looks_like_binary_stl(std::string_view bytes);

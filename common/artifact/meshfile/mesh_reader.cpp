@@ -64,6 +64,14 @@ PolyMesh read_format(Format format, std::string_view bytes, ReadReport& report) 
   throw InputError("is in no known format; OBJ, PLY, OFF and STL can be read");
 }
 
+/// Moves what a face carries to the place where the face goes; places only move forward.
+void move_attributes(Attributes& attributes, Index face, Index to_face, Index corner,
+                     Index to_corner, Index sides) {
+  for (FaceLabels& labels : attributes.labels) labels.of_face[to_face] = labels.of_face[face];
+  if (attributes.texture.empty()) return;
+  std::copy_n(attributes.texture.begin() + corner, sides, attributes.texture.begin() + to_corner);
+}
+
 /// Removes the faces that cannot be used, in place, and counts them.
 void drop_unusable_faces(PolyMesh& mesh, ReadReport& report) {
   std::vector<std::uint8_t> finite(mesh.positions.size());
@@ -89,12 +97,15 @@ void drop_unusable_faces(PolyMesh& mesh, ReadReport& report) {
                           : (valid ? report.non_finite_faces : report.bad_index_faces));
       continue;
     }
+    move_attributes(mesh.attributes, f, kept_faces, first, kept_corners, last - first);
     mesh.offsets[kept_faces++] = kept_corners;
     for (Index c = first; c < last; ++c) mesh.corners[kept_corners++] = mesh.corners[c];
   }
   mesh.offsets.resize(kept_faces + 1);
   mesh.offsets[kept_faces] = kept_corners;
   mesh.corners.resize(kept_corners);
+  for (FaceLabels& labels : mesh.attributes.labels) labels.of_face.resize(kept_faces);
+  if (!mesh.attributes.texture.empty()) mesh.attributes.texture.resize(kept_corners);
 }
 
 std::string describe_loss(const ReadReport& report) {

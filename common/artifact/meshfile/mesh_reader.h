@@ -35,9 +35,12 @@ struct ReadReport {
 ///
 /// The format is recognised by content, then by extension. Coordinates keep their full precision.
 /// Vertices stay in the order of the file and are all kept; STL corners of equal coordinates become
-/// one vertex. Faces that cannot be used are skipped and counted; a truncated file yields what is
-/// complete.
-/// \throw InputError naming the file where it cannot be read, is of no known format, or holds no
+/// one vertex. Colours, texture coordinates and labels of faces are read from OBJ (`v x y z r g b`,
+/// `vt`, `o`, `g`, `usemtl`) and PLY (properties red, green, blue, alpha and s, t or u, v of
+/// vertices; texcoord and integers of faces with one of the names in docs/import.md); where some
+/// elements lack what others have, they are white, at (0, 0), or have the label "". Faces that
+/// cannot be used are skipped and counted; a truncated file yields what is complete. \throw
+/// InputError naming the file where it cannot be read, is of no known format, or holds no
 ///        usable face
 /// Cost O(bytes); memory is bounded by the size of the file, whatever counts it announces.
 PolyMesh read_mesh(const std::filesystem::path& path, ReadReport& report);

@@ -8,8 +8,10 @@
 #include <bit>
 #include <cctype>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <iterator>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -77,11 +79,60 @@ class OutputFile {
   int descriptor_ = -1;
 };
 
+/// Numbers different texture coordinates in order of appearance.
+class TextureNumbers {
+ public:
+  explicit TextureNumbers(const std::vector<TexturePoint>& corners) {
+    std::map<TexturePoint, Index> numbers;
+    of_corner_.reserve(corners.size());
+    for (const TexturePoint& point : corners) {
+      const auto [at, is_new] = numbers.try_emplace(point, static_cast<Index>(points_.size()));
+      if (is_new) points_.push_back(point);
+      of_corner_.push_back(at->second);
+    }
+  }
+  [[nodiscard]] const std::vector<TexturePoint>& points() const { return points_; }
+  [[nodiscard]] Index of_corner(Index corner) const { return of_corner_[corner]; }
+
+ private:
+  std::vector<TexturePoint> points_;
+  std::vector<Index> of_corner_;
+};
+
+/// The OBJ statement that begins a part: labels of other formats become groups.
+void print_part(const FaceLabels& labels, Index face, OutputFile& out) {
+  const Index number = labels.of_face[face];
+  const bool is_statement = labels.name == "o" || labels.name == "g" || labels.name == "usemtl";
+  const std::string_view statement = is_statement ? std::string_view(labels.name) : "g";
+  if (number >= 0 && static_cast<std::size_t>(number) < labels.names.size()) {
+    out.print("{} {}\n", statement, labels.names[number]);
+  } else {
+    out.print("{} {}_{}\n", statement, labels.name, number);
+  }
+}
+
 void write_obj(const PolyMesh& mesh, OutputFile& out) {
-  for (const Vec3& p : mesh.positions) out.print("v {} {} {}\n", p.x(), p.y(), p.z());
+  const Attributes& attributes = mesh.attributes;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const Vec3& p = mesh.positions[v];
+    out.print("v {} {} {}", p.x(), p.y(), p.z());
+    if (!attributes.colour.empty()) {
+      const Colour& c = attributes.colour[v];
+      out.print(" {} {} {}", c[0], c[1], c[2]);
+    }
+    out.print("\n");
+  }
+  const TextureNumbers texture(attributes.texture);
+  for (const auto& [s, t] : texture.points()) out.print("vt {} {}\n", s, t);
   for (Index f = 0; f < mesh.face_count(); ++f) {
+    for (const FaceLabels& labels : attributes.labels) {
+      if (f == 0 || labels.of_face[f] != labels.of_face[f - 1]) print_part(labels, f, out);
+    }
     out.print("f");
-    for (const Index v : mesh.face(f)) out.print(" {}", v + 1);
+    for (Index c = mesh.offsets[f]; c < mesh.offsets[f + 1]; ++c) {
+      out.print(" {}", mesh.corners[c] + 1);
+      if (!attributes.texture.empty()) out.print("/{}", texture.of_corner(c) + 1);
+    }
     out.print("\n");
   }
 }
@@ -96,25 +147,93 @@ void write_off(const PolyMesh& mesh, OutputFile& out) {
   }
 }
 
-void write_ply(const PolyMesh& mesh, OutputFile& out) {
-  std::size_t most_sides = 0;
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    most_sides = std::max(most_sides, mesh.face(f).size());
-  }
-  const bool small = most_sides <= UINT8_MAX;
-  out.print(
-      "ply\nformat binary_little_endian 1.0\n"
-      "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
-      "element face {}\nproperty list {} int vertex_indices\nend_header\n",
-      mesh.vertex_count(), mesh.face_count(), small ? "uchar" : "uint");
-  for (const Vec3& p : mesh.positions) out.write(p.data(), sizeof(Vec3));
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    const auto face = mesh.face(f);
-    const auto sides = static_cast<std::uint32_t>(face.size());
-    out.write(&sides, small ? 1 : sizeof(sides));  // the low byte comes first
-    out.write(face.data(), face.size_bytes());
-  }
+std::size_t most_sides(const PolyMesh& mesh) {
+  std::size_t most = 0;
+  for (Index f = 0; f < mesh.face_count(); ++f) most = std::max(most, mesh.face(f).size());
+  return most;
 }
+
+/// Writes PLY, each kind of attribute by the names that other programs read.
+class PlyWriter {
+ public:
+  PlyWriter(const PolyMesh& mesh, OutputFile& out)
+      : mesh_(mesh),
+        attributes_(mesh.attributes),
+        out_(out),
+        // The texture coordinates of a face are counted in a byte.
+        has_texture_(!attributes_.texture.empty() && 2 * most_sides(mesh) <= UINT8_MAX),
+        has_small_faces_(most_sides(mesh) <= UINT8_MAX) {
+    has_alpha_ = std::any_of(attributes_.colour.begin(), attributes_.colour.end(),
+                             [](const Colour& c) { return c[3] != 1; });
+  }
+
+  void write() {
+    print_header();
+    for (Index v = 0; v < mesh_.vertex_count(); ++v) write_vertex(v);
+    for (Index f = 0; f < mesh_.face_count(); ++f) write_face(f);
+  }
+
+ private:
+  void print_header() {
+    out_.print("ply\nformat binary_little_endian 1.0\n");
+    for (const FaceLabels& labels : attributes_.labels) {
+      for (std::size_t i = 0; i < labels.names.size(); ++i) {
+        out_.print("comment {} {} is {}\n", labels.name, i, labels.names[i]);
+      }
+    }
+    out_.print("element vertex {}\nproperty double x\nproperty double y\nproperty double z\n",
+               mesh_.vertex_count());
+    if (!attributes_.colour.empty()) {
+      out_.print("property uchar red\nproperty uchar green\nproperty uchar blue\n");
+      if (has_alpha_) out_.print("property uchar alpha\n");
+    }
+    out_.print("element face {}\nproperty list {} int vertex_indices\n", mesh_.face_count(),
+               has_small_faces_ ? "uchar" : "uint");
+    if (has_texture_) out_.print("property list uchar float texcoord\n");
+    for (const FaceLabels& labels : attributes_.labels)
+      out_.print("property int {}\n", labels.name);
+    out_.print("end_header\n");
+  }
+
+  void write_vertex(Index v) {
+    out_.write(mesh_.positions[v].data(), sizeof(Vec3));
+    if (attributes_.colour.empty()) return;
+    for (int i = 0; i < (has_alpha_ ? 4 : 3); ++i) {
+      write_byte(std::lround(std::clamp(attributes_.colour[v][i], 0.0, 1.0) * UINT8_MAX));
+    }
+  }
+
+  void write_face(Index f) {
+    const auto face = mesh_.face(f);
+    const auto sides = static_cast<std::uint32_t>(face.size());
+    out_.write(&sides, has_small_faces_ ? 1 : sizeof(sides));  // the low byte comes first
+    out_.write(face.data(), face.size_bytes());
+    if (has_texture_) {
+      write_byte(2 * static_cast<long>(sides));
+      for (Index c = mesh_.offsets[f]; c < mesh_.offsets[f + 1]; ++c) {
+        for (const double value : attributes_.texture[c]) {
+          const auto single = static_cast<float>(value);
+          out_.write(&single, sizeof(single));
+        }
+      }
+    }
+    for (const FaceLabels& labels : attributes_.labels) {
+      out_.write(&labels.of_face[f], sizeof(Index));
+    }
+  }
+
+  void write_byte(long value) {
+    const auto byte = static_cast<std::uint8_t>(value);
+    out_.write(&byte, 1);
+  }
+
+  const PolyMesh& mesh_;
+  const Attributes& attributes_;
+  OutputFile& out_;
+  bool has_texture_;
+  bool has_small_faces_;
+  bool has_alpha_ = false;
+};
 
 }  // namespace
 
@@ -129,7 +248,7 @@ void write_mesh(const std::filesystem::path& path, const PolyMesh& mesh) {
   AtomicFile file(path);
   OutputFile out(file.temporary(), path.string());
   if (extension == ".obj") write_obj(mesh, out);
-  if (extension == ".ply") write_ply(mesh, out);
+  if (extension == ".ply") PlyWriter(mesh, out).write();
   if (extension == ".off") write_off(mesh, out);
   out.close();
   file.commit();

@@ -1,6 +1,10 @@
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <map>
+#include <string>
 #include <string_view>
+#include <utility>
 
 #include "common/artifact/meshfile/formats.h"
 #include "common/artifact/meshfile/text_scanner.h"
@@ -9,29 +13,150 @@
 namespace strake::meshfile {
 namespace {
 
-/// The vertex of the next corner "v", "v/t", "v//n" or "v/t/n"; texture and normal are ignored.
-Index read_corner(TextScanner& scanner, Index vertex_count) {
+/// Reads an index that counts from 1, or from the end where it is negative; kNone where there is
+/// none.
+Index read_index(TextScanner& scanner, std::size_t count) {
   std::int64_t index = 0;
-  const bool valid = scanner.integer(index);
-  const bool clean = scanner.at_word_end() || *scanner.position() == '/';
-  scanner.skip_word();
-  if (!valid || !clean || index == 0) return kNone;
-  return index > 0 ? to_index(index - 1) : to_index(vertex_count + index);
+  if (!scanner.integer(index) || index == 0) return kNone;
+  return to_index(index > 0 ? index - 1 : static_cast<std::int64_t>(count) + index);
 }
 
-void read_face(TextScanner& scanner, PolyMesh& mesh) {
-  while (scanner.skip_blanks()) {
-    mesh.corners.push_back(read_corner(scanner, mesh.vertex_count()));
+/// Collects what an OBJ file says, line by line.
+class ObjReader {
+ public:
+  /// "v x y z", optionally with a weight and a colour.
+  void add_vertex(TextScanner& scanner) {
+    Vec3 position;
+    for (int i = 0; i < 3; ++i) scanner.number(position[i]);
+    mesh_.positions.push_back(position);
+    std::array<double, 4> rest{};
+    int count = 0;
+    while (count < 4 && scanner.number(rest[count])) ++count;
+    if (count < 3) return;
+    const double* rgb = rest.data() + (count - 3);
+    attributes().colour.resize(mesh_.positions.size() - 1, kWhite);
+    attributes().colour.push_back({rgb[0], rgb[1], rgb[2], 1});
   }
-  check_countable(mesh.corners.size(), "face corners");
-  mesh.offsets.push_back(static_cast<Index>(mesh.corners.size()));
-}
 
-Vec3 read_vertex(TextScanner& scanner) {
-  Vec3 position;
-  for (int i = 0; i < 3; ++i) scanner.number(position[i]);
-  return position;
-}
+  /// "vt s t"
+  void add_texture_point(TextScanner& scanner) {
+    TexturePoint point{};
+    for (double& value : point) {
+      scanner.number(value);
+      if (!std::isfinite(value)) value = 0;
+    }
+    texture_points_.push_back(point);
+  }
+
+  void add_face(TextScanner& scanner) {
+    while (scanner.skip_blanks()) add_corner(scanner);
+    check_countable(mesh_.corners.size(), "face corners");
+    mesh_.offsets.push_back(static_cast<Index>(mesh_.corners.size()));
+    for (Layer& layer : layers_) {
+      if (layer.is_used) layer.labels.of_face.push_back(layer.present);
+    }
+  }
+
+  /// "o name", "g name" or "usemtl name": what the faces after it belong to.
+  /// \return whether the word is one of these
+  bool start_part(std::string_view word, TextScanner& scanner) {
+    for (Layer& layer : layers_) {
+      if (layer.labels.name != word) continue;
+      if (!layer.is_used) start_layer(layer);
+      layer.present = layer.number(rest_of_line(scanner));
+      return true;
+    }
+    return false;
+  }
+
+  PolyMesh finish() {
+    check_countable(mesh_.positions.size(), "vertices");
+    if (mesh_.positions.empty()) throw InputError("holds no vertices; it does not look like OBJ");
+    if (!attributes().colour.empty()) finish_colours();
+    if (!corner_texture_.empty()) {
+      corner_texture_.resize(mesh_.corners.size(), kNone);
+      attributes().texture.reserve(mesh_.corners.size());
+      for (const Index t : corner_texture_) {
+        const bool is_there = t != kNone && static_cast<std::size_t>(t) < texture_points_.size();
+        attributes().texture.push_back(is_there ? texture_points_[t] : TexturePoint{});
+      }
+    }
+    for (Layer& layer : layers_) {
+      if (layer.is_used) attributes().labels.push_back(std::move(layer.labels));
+    }
+    return std::move(mesh_);
+  }
+
+ private:
+  static constexpr Colour kWhite = {1, 1, 1, 1};
+
+  /// Labels of one kind, and the one that is in force.
+  struct Layer {
+    FaceLabels labels;
+    bool is_used = false;
+    Index present = 0;
+    std::map<std::string, Index, std::less<>> numbers = {};
+
+    Index number(const std::string& name) {
+      const auto [at, is_new] = numbers.try_emplace(name, static_cast<Index>(labels.names.size()));
+      if (is_new) labels.names.push_back(name);
+      return at->second;
+    }
+  };
+
+  Attributes& attributes() { return mesh_.attributes; }
+
+  /// A corner "v", "v/t", "v//n" or "v/t/n"; normals are ignored.
+  void add_corner(TextScanner& scanner) {
+    Index vertex = read_index(scanner, mesh_.positions.size());
+    Index texture = kNone;
+    if (!scanner.at_word_end() && *scanner.position() == '/') {
+      scanner.skip_character();
+      texture = read_index(scanner, texture_points_.size());
+    } else if (!scanner.at_word_end()) {
+      vertex = kNone;
+    }
+    scanner.skip_word();
+    mesh_.corners.push_back(vertex);
+    if (texture != kNone || !corner_texture_.empty()) {
+      corner_texture_.resize(mesh_.corners.size() - 1, kNone);
+      corner_texture_.push_back(texture);
+    }
+  }
+
+  /// Faces before the first statement of a kind have the label "".
+  void start_layer(Layer& layer) {
+    layer.is_used = true;
+    if (mesh_.face_count() == 0) return;
+    layer.labels.of_face.assign(mesh_.face_count(), layer.number(""));
+  }
+
+  static std::string rest_of_line(TextScanner& scanner) {
+    std::string text;
+    for (std::string_view word = scanner.word(); !word.empty(); word = scanner.word()) {
+      text += (text.empty() ? "" : " ") + std::string(word);
+    }
+    return text;
+  }
+
+  /// Some programs write 0 to 255.
+  void finish_colours() {
+    attributes().colour.resize(mesh_.positions.size(), kWhite);
+    double largest = 0;
+    for (const Colour& c : attributes().colour) largest = std::max({largest, c[0], c[1], c[2]});
+    for (Colour& c : attributes().colour) {
+      for (int i = 0; i < 3; ++i) {
+        c[i] = std::isfinite(c[i]) ? std::clamp(c[i] / (largest > 1 ? 255 : 1), 0.0, 1.0) : 1;
+      }
+    }
+  }
+
+  PolyMesh mesh_;
+  std::vector<TexturePoint> texture_points_;
+  std::vector<Index> corner_texture_;  ///< [C], or empty while no corner names one
+  std::array<Layer, 3> layers_ = {Layer{{"o", {}, {}}}, Layer{{"g", {}, {}}},
+                                  Layer{{"usemtl", {}, {}}}};
+};
 
 bool is_other_keyword(std::string_view word) {
   for (const std::string_view known :
@@ -72,21 +197,21 @@ bool looks_like_obj(std::string_view bytes) {
 
 PolyMesh read_obj(std::string_view bytes, ReadReport& report) {
   report.format = "OBJ";
-  PolyMesh mesh;
+  ObjReader reader;
   TextScanner scanner(bytes, '#');
   for (; scanner.skip_space(); scanner.next_line()) {
     const std::string_view word = scanner.word();
     if (word == "v") {
-      mesh.positions.push_back(read_vertex(scanner));
+      reader.add_vertex(scanner);
     } else if (word == "f") {
-      read_face(scanner, mesh);
-    } else if (!is_statement(word)) {
+      reader.add_face(scanner);
+    } else if (word == "vt") {
+      reader.add_texture_point(scanner);
+    } else if (!reader.start_part(word, scanner) && !is_statement(word)) {
       ++report.skipped_lines;
     }
   }
-  check_countable(mesh.positions.size(), "vertices");
-  if (mesh.positions.empty()) throw InputError("holds no vertices; it does not look like OBJ");
-  return mesh;
+  return reader.finish();
 }
 
 }  // namespace strake::meshfile

@@ -57,6 +57,8 @@ class TextScanner {
     return {first, static_cast<std::size_t>(at_ - first)};
   }
 
+  /// \pre not at the end of a word
+  void skip_character() { ++at_; }
   void skip_word() {
     while (!ends_word(at_)) ++at_;
   }

@@ -1,0 +1,189 @@
+#include "common/geometry/carry_attributes.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <span>
+
+namespace strake {
+namespace {
+
+/// On an edge where a barycentric coordinate is below this.
+constexpr double kOnEdge = 1e-9;
+
+/// A point of the surface in one of the triangles that it belongs to.
+struct Place {
+  Index face = kNone;
+  std::array<double, 3> barycentric{};
+};
+
+/// Finds the triangles in which the corners of a result lie.
+class CornerPlaces {
+ public:
+  CornerPlaces(const TriMesh& mesh, const PolyMesh& result, const VertexProvenance& places)
+      : mesh_(mesh), result_(result), places_(places) {}
+
+  /// All triangles that the vertex belongs to.
+  void find(Index vertex, std::vector<Place>& found) const {
+    const Place own = {places_.face[vertex], places_.barycentric[vertex]};
+    const auto& b = own.barycentric;
+    found.assign(1, own);
+    for (int i = 0; i < 3; ++i) {
+      const Index corner = 3 * own.face + i;
+      if (b[(i + 1) % 3] <= kOnEdge && b[(i + 2) % 3] <= kOnEdge) return find_fan(corner, found);
+    }
+    for (int i = 0; i < 3; ++i) {
+      const Index twin = mesh_.twin[3 * own.face + i];
+      if (b[(i + 2) % 3] > kOnEdge || twin == kNone) continue;
+      Place other = {TriMesh::face_of(twin), {}};
+      other.barycentric[twin % 3] = b[(i + 1) % 3];
+      other.barycentric[TriMesh::next(twin) % 3] = b[i];
+      found.push_back(other);
+    }
+  }
+
+  /// The one of these triangles on which corner number `i` of face `f` lies.
+  [[nodiscard]] const Place& choose(Index f, int i, const std::vector<Place>& among) const {
+    if (among.size() == 1) return among.front();
+    const Vec3 inwards = bisector(result_.face(f), i);
+    const auto score = [&](const Place& place) { return support(place, inwards); };
+    const Place* best = &among.front();
+    for (const Place& place : among) {
+      if (score(place) > score(*best)) best = &place;
+    }
+    return *best;
+  }
+
+ private:
+  void find_fan(Index corner, std::vector<Place>& found) const {
+    found.clear();
+    const Index start = mesh_.vertex_out[mesh_.from(corner)];
+    Index h = start;
+    do {
+      Place& place = found.emplace_back(Place{TriMesh::face_of(h), {}});
+      place.barycentric[h % 3] = 1;
+      h = mesh_.rotate_ccw(h);
+    } while (h != kNone && h != start);
+  }
+
+  /// Direction from a corner into its face, halfway between its edges.
+  [[nodiscard]] Vec3 bisector(std::span<const Index> face, int i) const {
+    const int count = static_cast<int>(face.size());
+    const auto at = [&](int k) -> const Vec3& { return result_.positions[face[k % count]]; };
+    Vec3 normal = Vec3::Zero();
+    for (int k = 1; k + 1 < count; ++k) normal += (at(k) - at(0)).cross(at(k + 1) - at(0));
+    const Vec3 onward = (at(i + 1) - at(i)).stableNormalized();
+    const Vec3 back = (at(i + count - 1) - at(i)).stableNormalized();
+    return normal.stableNormalized().cross(onward - back).stableNormalized();
+  }
+
+  /// How far a unit direction from a point on a triangle's outline leads into the triangle.
+  [[nodiscard]] double support(const Place& place, const Vec3& direction) const {
+    const auto& corners = mesh_.faces[place.face];
+    const auto at = [&](int k) -> const Vec3& { return mesh_.positions[corners[k % 3]]; };
+    const Vec3 normal = (at(1) - at(0)).cross(at(2) - at(0)).stableNormalized();
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 3; ++i) {
+      // Each side of the outline that the point lies on limits the way.
+      if (place.barycentric[(i + 2) % 3] > kOnEdge) continue;
+      const Vec3 side = (at(i + 1) - at(i)).stableNormalized();
+      least = std::min(least, normal.cross(side).dot(direction));
+    }
+    return least;
+  }
+
+  const TriMesh& mesh_;
+  const PolyMesh& result_;
+  const VertexProvenance& places_;
+};
+
+template <std::size_t N>
+void add_weighted(std::array<double, N>& sum, double weight, const std::array<double, N>& value) {
+  for (std::size_t k = 0; k < N; ++k) sum[k] += weight * value[k];
+}
+
+/// What most votes are for; of equals the least.
+Index most_frequent(const std::vector<Index>& votes) {
+  std::map<Index, int> counts;
+  for (const Index vote : votes) ++counts[vote];
+  const auto fewer = [](const auto& a, const auto& b) { return a.second < b.second; };
+  return std::max_element(counts.begin(), counts.end(), fewer)->first;
+}
+
+/// Carries attributes of faces and their corners.
+class FaceCarrier {
+ public:
+  FaceCarrier(const TriMesh& mesh, const PolyMesh& result, const VertexProvenance& places,
+              Attributes& attributes)
+      : from_(mesh.attributes), to_(attributes), result_(result), places_(mesh, result, places) {
+    for (const FaceLabels& labels : from_.labels) {
+      to_.labels.push_back({labels.name, {}, labels.names});
+    }
+    sure_.resize(from_.labels.size());
+    chosen_.resize(from_.labels.size());
+  }
+
+  void add(Index f) {
+    for (auto* votes : {&sure_, &chosen_}) {
+      for (std::vector<Index>& of_kind : *votes) of_kind.clear();
+    }
+    const auto face = result_.face(f);
+    for (int i = 0; i < static_cast<int>(face.size()); ++i) {
+      places_.find(face[i], found_);
+      const Place& place = places_.choose(f, i, found_);
+      if (!from_.texture.empty()) add_texture(place);
+      for (std::size_t k = 0; k < from_.labels.size(); ++k) vote(k, place);
+    }
+    for (std::size_t k = 0; k < from_.labels.size(); ++k) {
+      to_.labels[k].of_face.push_back(most_frequent(sure_[k].empty() ? chosen_[k] : sure_[k]));
+    }
+  }
+
+ private:
+  void add_texture(const Place& place) {
+    TexturePoint& point = to_.texture.emplace_back(TexturePoint{});
+    for (int i = 0; i < 3; ++i) {
+      add_weighted(point, place.barycentric[i], from_.texture[3 * place.face + i]);
+    }
+  }
+
+  void vote(std::size_t kind, const Place& place) {
+    const std::vector<Index>& label = from_.labels[kind].of_face;
+    const Index own = label[place.face];
+    chosen_[kind].push_back(own);
+    const bool is_sure = std::all_of(found_.begin(), found_.end(),
+                                     [&](const Place& p) { return label[p.face] == own; });
+    if (is_sure) sure_[kind].push_back(own);
+  }
+
+  const Attributes& from_;
+  Attributes& to_;
+  const PolyMesh& result_;
+  CornerPlaces places_;
+  std::vector<Place> found_;
+  std::vector<std::vector<Index>> sure_;  ///< votes for labels of each kind
+  std::vector<std::vector<Index>> chosen_;
+};
+
+}  // namespace
+
+Attributes carry_attributes(const TriMesh& mesh, const PolyMesh& result,
+                            const VertexProvenance& places) {
+  Attributes attributes;
+  const Attributes& from = mesh.attributes;
+  if (!from.colour.empty()) {
+    for (Index v = 0; v < result.vertex_count(); ++v) {
+      Colour& colour = attributes.colour.emplace_back(Colour{});
+      for (int i = 0; i < 3; ++i) {
+        add_weighted(colour, places.barycentric[v][i], from.colour[mesh.faces[places.face[v]][i]]);
+      }
+    }
+  }
+  if (from.texture.empty() && from.labels.empty()) return attributes;
+  FaceCarrier faces(mesh, result, places, attributes);
+  for (Index f = 0; f < result.face_count(); ++f) faces.add(f);
+  return attributes;
+}
+
+}  // namespace strake

@@ -1,0 +1,97 @@
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <set>
+
+#include "common/artifact/meshfile/mesh_reader.h"
+#include "common/artifact/meshfile/mesh_writer.h"
+#include "tests/pipeline/run_program.h"
+#include "tests/support/attributed.h"
+
+namespace strake::pipeline_test {
+namespace {
+
+/// Colours, texture coordinates and labels from file to file, by the real programs.
+class AttributeFiles : public ProgramTest {
+ protected:
+  [[nodiscard]] PolyMesh read(const std::string& name) const {
+    ReadReport report;
+    return read_mesh(file(name), report);
+  }
+};
+
+TEST_F(AttributeFiles, LabelsAndColoursOfACube) {
+  write_mesh(file("cube.obj"), support::labelled_cube(12));
+  must("strake remesh cube.obj -o out.obj --vertices 400 -q --no-evaluate");
+  must("strake remesh cube.obj -o out.ply --vertices 400 -q --no-evaluate --keep kept");
+  const PolyMesh obj = read("out.obj");
+  const PolyMesh ply = read("out.ply");
+  ASSERT_EQ(obj.attributes.labels.size(), 1u);
+  ASSERT_EQ(ply.attributes.labels.size(), 1u);
+  const FaceLabels& labels = obj.attributes.labels[0];
+  EXPECT_EQ(labels.name, "g");
+  EXPECT_EQ(ply.attributes.labels[0].name, "g");
+  const std::vector<std::string> names = {"right", "left", "top", "bottom", "front", "back"};
+  for (Index f = 0; f < obj.face_count(); ++f) {
+    Vec3 middle = Vec3::Zero();
+    for (const Index v : obj.face(f)) middle += obj.positions[v];
+    const Index side = support::side_of(middle);
+    EXPECT_EQ(labels.names[labels.of_face[f]], names[side]) << f;
+    EXPECT_EQ(ply.attributes.labels[0].of_face[f], side) << f;
+  }
+  // The sides are flat, so fitting has no reason to move vertices off the place they come from; but
+  // T-joints are moved into line, by small parts of their edges.
+  ASSERT_EQ(obj.attributes.colour.size(), obj.positions.size());
+  for (Index v = 0; v < obj.vertex_count(); ++v) {
+    const Colour expected = support::linear_colour(obj.positions[v]);
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_NEAR(ply.attributes.colour[v][i], obj.attributes.colour[v][i], 0.5001 / 255);
+      EXPECT_NEAR(obj.attributes.colour[v][i], expected[i], 0.05);
+    }
+  }
+  // The stages one by one, and export, give the same.
+  must("strake-export kept/fitted.hdf -o again.obj -q");
+  EXPECT_EQ(bytes("again.obj"), bytes("out.obj"));
+  must("strake check kept/mesh.hdf");
+  must("strake check kept/fitted.hdf");
+}
+
+TEST_F(AttributeFiles, TextureCoordinatesOfATube) {
+  write_mesh(file("tube.obj"), support::seamed_tube(60, 20));
+  must("strake remesh tube.obj -o out.obj --vertices 300 -q --no-evaluate");
+  const PolyMesh mesh = read("out.obj");
+  ASSERT_EQ(mesh.attributes.texture.size(), mesh.corners.size());
+  double covered = 0;  // area of the faces in the plane of texture coordinates
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const Index first = mesh.offsets[f];
+    const Index count = mesh.offsets[f + 1] - first;
+    for (Index i = 0; i < count; ++i) {
+      const auto& [s, t] = mesh.attributes.texture[first + i];
+      const auto& [s1, t1] = mesh.attributes.texture[first + (i + 1) % count];
+      covered += 0.5 * (s * t1 - t * s1);
+    }
+  }
+  // Boundary and seam are kept, so the faces cover the rectangle from (0, 0) to (1, 2) once.
+  EXPECT_NEAR(covered, 2, 1e-9);
+}
+
+TEST_F(AttributeFiles, CanBeLeftOut) {
+  write_mesh(file("tube.obj"), support::seamed_tube(40, 10));
+  must("strake-import tube.obj -o mesh.hdf -q --no-attributes --attribute-features none");
+  must("strake-import tube.obj -o carried.hdf -q --attribute-features none");
+  PolyMesh plain = support::seamed_tube(40, 10);
+  plain.attributes = {};
+  write_mesh(file("plain.obj"), plain);
+  must("strake-import plain.obj -o plain.hdf -q");
+  EXPECT_EQ(must("strake info mesh.hdf").find("texture"), std::string::npos);
+  EXPECT_NE(must("strake info carried.hdf").find("texture"), std::string::npos);
+  const auto mesh_id = [&](const std::string& name) {
+    const std::string info = must("strake info " + name);
+    return info.substr(info.find("mesh  "), 48);
+  };
+  EXPECT_EQ(mesh_id("mesh.hdf"), mesh_id("plain.hdf"));
+  EXPECT_EQ(mesh_id("carried.hdf"), mesh_id("plain.hdf"));
+}
+
+}  // namespace
+}  // namespace strake::pipeline_test

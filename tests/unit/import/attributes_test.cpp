@@ -1,0 +1,177 @@
+#include "common/core/attributes.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "common/artifact/meshfile/mesh_reader.h"
+#include "common/artifact/meshfile/mesh_writer.h"
+#include "tests/support/attributed.h"
+#include "tests/unit/import/shapes.h"
+
+namespace strake {
+namespace {
+
+namespace fs = std::filesystem;
+
+PolyMesh parsed(const std::string& text, const std::string& extension) {
+  ReadReport report;
+  PolyMesh mesh = parse_mesh(text, extension, report);
+  EXPECT_TRUE(report.warnings().empty());
+  return mesh;
+}
+
+TEST(Attributes, OfAnObjFile) {
+  const PolyMesh mesh = parsed(
+      "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 1\nv 0 1 0\n"
+      "vt 0 0\nvt 1 0\nvt 1 1\nvt 0.5 0.25\n"
+      "g first\nusemtl red paint\nf 1/1 2/2/9 3/-2\ng second\nf 1//4 3/3 4/4\n",
+      ".obj");
+  const std::vector<Colour> colours = {{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}, {1, 1, 1, 1}};
+  EXPECT_EQ(mesh.attributes.colour, colours);
+  const std::vector<TexturePoint> texture = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0.5, 0.25}};
+  EXPECT_EQ(mesh.attributes.texture, texture);
+  const std::vector<FaceLabels> labels = {{"g", {0, 1}, {"first", "second"}},
+                                          {"usemtl", {0, 0}, {"red paint"}}};
+  EXPECT_EQ(mesh.attributes.labels, labels);
+  EXPECT_TRUE(parsed("v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nf 1 2 3\n", ".obj").attributes.empty());
+}
+
+TEST(Attributes, OfFacesThatAreSkippedAreSkipped) {
+  ReadReport report;
+  const PolyMesh mesh = parse_mesh(
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 9 9\n"
+      "g bad\nf 1/4 2/4 7/4\ng good\nf 1/1 2/2 3/3\n",
+      ".obj", report);
+  EXPECT_EQ(report.bad_index_faces, 1);
+  EXPECT_EQ(mesh.attributes.texture, (std::vector<TexturePoint>{{0, 0}, {1, 0}, {1, 1}}));
+  EXPECT_EQ(mesh.attributes.labels[0].of_face, std::vector<Index>{1});
+}
+
+TEST(Attributes, OfAPlyFile) {
+  const std::string vertices =
+      "property float x\nproperty float y\nproperty float z\nproperty uchar red\n"
+      "property uchar green\nproperty uchar blue\n";
+  const PolyMesh mesh = parsed(
+      "ply\nformat ascii 1.0\nelement vertex 3\n" + vertices +
+          "property float s\nproperty float t\nelement face 1\n"
+          "property list uchar int vertex_indices\nproperty int label\nproperty float quality\n"
+          "end_header\n0 0 0 255 0 0 0 1\n1 0 0 0 51 0 0.5 1\n1 1 0 0 0 0 0.25 0\n3 2 0 1 -4 0.5\n",
+      ".ply");
+  EXPECT_EQ(mesh.attributes.colour[1], (Colour{0, 0.2, 0, 1}));
+  EXPECT_EQ(mesh.attributes.texture, (std::vector<TexturePoint>{{0.25, 0}, {0, 1}, {0.5, 1}}));
+  EXPECT_EQ(mesh.attributes.labels, (std::vector<FaceLabels>{{"label", {-4}, {}}}));
+  const PolyMesh corners =
+      parsed("ply\nformat ascii 1.0\nelement vertex 3\n" + vertices +
+                 "element face 1\nproperty list uchar int vertex_indices\n"
+                 "property list uchar float texcoord\nend_header\n0 0 0 1 1 1\n1 0 0 1 1 1\n"
+                 "1 1 0 1 1 1\n3 0 1 2 6 0 0.5 1 0.5 1 1\n",
+             ".ply");
+  EXPECT_EQ(corners.attributes.texture, (std::vector<TexturePoint>{{0, 0.5}, {1, 0.5}, {1, 1}}));
+}
+
+/// A mesh with everything.
+PolyMesh decorated() {
+  PolyMesh mesh = support::seamed_tube(8, 3);
+  support::colour_linearly(mesh);
+  FaceLabels labels{"g", {}, {"lower", "upper"}};
+  for (Index f = 0; f < mesh.face_count(); ++f) labels.of_face.push_back(f < 8 ? 0 : 1);
+  mesh.attributes.labels = {labels};
+  return mesh;
+}
+
+TEST(Attributes, AreWrittenAndReadBack) {
+  const PolyMesh mesh = decorated();
+  for (const char* extension : {".obj", ".ply"}) {
+    const fs::path path =
+        fs::path(testing::TempDir()) / ("strake_attributes" + std::string(extension));
+    write_mesh(path, mesh);
+    ReadReport report;
+    const Attributes back = read_mesh(path, report).attributes;
+    EXPECT_TRUE(report.warnings().empty());
+    fs::remove(path);
+    if (extension == std::string(".obj")) {
+      EXPECT_EQ(back, mesh.attributes);
+      continue;
+    }
+    ASSERT_EQ(back.colour.size(), mesh.attributes.colour.size());
+    for (std::size_t v = 0; v < back.colour.size(); ++v) {
+      for (int i = 0; i < 4; ++i) {
+        EXPECT_NEAR(back.colour[v][i], mesh.attributes.colour[v][i], 0.5001 / 255);
+      }
+    }
+    ASSERT_EQ(back.texture.size(), mesh.attributes.texture.size());
+    for (std::size_t c = 0; c < back.texture.size(); ++c) {
+      EXPECT_NEAR(back.texture[c][0], mesh.attributes.texture[c][0], 1e-7);
+    }
+    EXPECT_EQ(back.labels[0].of_face, mesh.attributes.labels[0].of_face);
+  }
+}
+
+/// Every corner of the imported mesh has what the input has at that place of that face.
+void expect_carried(const PolyMesh& input, const TriMesh& mesh) {
+  ASSERT_EQ(mesh.attributes.texture.size(), 3 * mesh.faces.size());
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    const Vec3 p = mesh.positions[mesh.from(h)] + mesh.origin;
+    const Index f = mesh.source_face[h / 3];
+    bool found = false;
+    for (Index c = input.offsets[f]; c < input.offsets[f + 1]; ++c) {
+      if ((input.positions[input.corners[c]] - p).norm() > 1e-9) continue;
+      found = true;
+      EXPECT_EQ(mesh.attributes.texture[h], input.attributes.texture[c]);
+    }
+    EXPECT_TRUE(found);
+    for (int i = 0; i < 4; ++i) {
+      EXPECT_NEAR(mesh.attributes.colour[mesh.from(h)][i], support::linear_colour(p)[i], 1e-12);
+    }
+    EXPECT_EQ(mesh.attributes.labels[0].of_face[h / 3], input.attributes.labels[0].of_face[f]);
+  }
+}
+
+TEST(Attributes, SurviveTriangulationAndOrdering) {
+  const PolyMesh mesh = decorated();
+  expect_carried(mesh, shapes::imported(mesh).mesh);
+}
+
+TEST(Attributes, SurviveWeldingAndTurning) {
+  // Every face with vertices of its own, and every third one turned over.
+  const PolyMesh mesh = decorated();
+  PolyMesh soup;
+  soup.attributes.labels = mesh.attributes.labels;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    std::vector<Index> face;
+    for (int i = 0; i < 4; ++i) {
+      const Index c = mesh.offsets[f] + (f % 3 == 0 ? 3 - i : i);
+      face.push_back(soup.vertex_count());
+      soup.positions.push_back(mesh.positions[mesh.corners[c]]);
+      soup.attributes.texture.push_back(mesh.attributes.texture[c]);
+    }
+    soup.add_face(face);
+  }
+  support::colour_linearly(soup);
+  const ImportResult result = shapes::imported(soup);
+  EXPECT_GT(shapes::count(result.report, "repairs.flipped_faces"), 0);
+  EXPECT_GT(shapes::count(result.report, "repairs.welded_vertices"), 0);
+  expect_carried(soup, result.mesh);
+}
+
+TEST(Attributes, BordersAreFeatures) {
+  const PolyMesh mesh = decorated();
+  const auto edges = [&](const char* which) {
+    ImportOptions options;
+    options.feature_angle_deg = 180;
+    options.attribute_features = which;
+    const TriMesh result = shapes::imported(mesh, options).mesh;
+    return std::count(result.is_feature.begin(), result.is_feature.end(), 1) / 2;
+  };
+  EXPECT_EQ(edges("none"), 0);
+  EXPECT_EQ(edges("labels"), 8);
+  EXPECT_EQ(edges("seams"), 3);
+  EXPECT_EQ(edges("all"), 11);
+  ImportOptions without;
+  without.no_attributes = true;
+  EXPECT_TRUE(shapes::imported(mesh, without).mesh.attributes.empty());
+}
+
+}  // namespace
+}  // namespace strake
