@@ -37,6 +37,7 @@ struct RemeshCommand {
   std::string input;
   std::string output;
   std::string keep;
+  std::string feature_edges;
   bool no_evaluate = false;
   ShellOptions shell;
 
@@ -69,6 +70,7 @@ void RemeshCommand::add_to(CLI::App& app) {
       ->required();
   app.add_option("--keep", keep, "Keep the artifact and report of every stage in this folder.")
       ->type_name("FOLDER");
+  app.add_option("--feature-edges", feature_edges, import.inputs.back().help)->type_name("FILE");
   app.add_flag("--no-evaluate", no_evaluate, "Do not measure the result.");
   for (const Stage* stage : {&import, &tensor, &smooth, &trace, &mesh, &fit, &evaluate}) {
     add_options(*app.add_option_group("Stage " + stage->name, stage->summary), stage->options);
@@ -149,6 +151,10 @@ void RemeshCommand::run() {
   if (!keep.empty()) pipeline.keep_in(keep);
   const std::string digest = content_digest(input);
   pipeline.provide("input", load_value(PortKind::polygons, input), input, digest);
+  if (!feature_edges.empty()) {
+    pipeline.provide("feature-edges", load_value(PortKind::edge_list, feature_edges), feature_edges,
+                     content_digest(feature_edges));
+  }
   for (const Stage* stage : {&import, &tensor, &smooth}) {
     pipeline.run(*stage);
     pipeline.keep(*stage);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/artifact/artifact.h"
+#include "common/artifact/edge_list_file.h"
 #include "common/artifact/meshfile/mesh_writer.h"
 #include "common/core/error.h"
 
@@ -94,6 +95,8 @@ Value load_value(PortKind kind, const fs::path& path) {
       return open_tri_mesh(path);
     case PortKind::tensor_part:
       return read_tensor_part(path);
+    case PortKind::edge_list:
+      return read_edge_list(path);
     case PortKind::report:
       break;
   }
@@ -108,6 +111,9 @@ void save_value(const fs::path& path, const Value& value, const TriMesh* mesh,
                  [&](const TensorPart& part) { write_artifact(path, part, provenance); },
                  [&](const OpenedMesh&) {
                    throw Error(ExitCode::internal, "an opened mesh is not written");
+                 },
+                 [&](const EdgeList&) {
+                   throw Error(ExitCode::internal, "a list of edges is not written");
                  },
                  [&](const QuadMesh& quads) {
                    if (lower_extension(path) == kArtifactExtension) {
@@ -143,17 +149,17 @@ void check_output_path(PortKind kind, const fs::path& path) {
   }
 }
 
-const std::string& mesh_id_of(const Value& value) {
-  return std::visit(
-      Overloaded{[](const TriMesh& mesh) -> const std::string& { return mesh.id; },
-                 [](const OpenedMesh& mesh) -> const std::string& { return mesh->header().id; },
-                 [](const auto& other) -> const std::string& { return other.mesh_id; }},
-      value);
+std::string mesh_id_of(const Value& value) {
+  return std::visit(Overloaded{[](const TriMesh& mesh) { return mesh.id; },
+                               [](const OpenedMesh& mesh) { return mesh->header().id; },
+                               [](const EdgeList&) { return std::string(); },
+                               [](const auto& other) { return other.mesh_id; }},
+                    value);
 }
 
 void check_belongs(const TriMesh& mesh, const std::string& mesh_name, const Value& value,
                    const std::string& name) {
-  const std::string& id = mesh_id_of(value);
+  const std::string id = mesh_id_of(value);
   if (id.empty() && std::holds_alternative<Polygons>(value)) return;
   if (id != mesh.id) {
     throw PreconditionError("'" + name + "' belongs to another mesh than '" + mesh_name + "' (" +

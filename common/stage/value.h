@@ -7,6 +7,7 @@
 
 #include "common/artifact/meshfile/mesh_reader.h"
 #include "common/artifact/provenance.h"
+#include "common/core/edge_list.h"
 #include "common/core/fields.h"
 #include "common/core/line_set.h"
 #include "common/core/mesh_blocks.h"
@@ -28,10 +29,10 @@ struct Polygons {
 using OpenedMesh = std::shared_ptr<const MeshBlocks>;
 
 using Value = std::variant<Polygons, TriMesh, TensorField, PrincipalField, LineSet, QuadMesh,
-                           OpenedMesh, TensorPart>;
+                           OpenedMesh, TensorPart, EdgeList>;
 
 /// Kinds of values a stage takes or gives; `report` is none but the report itself, `opened_mesh` a
-/// mesh artifact for a stage that needs less memory than all of it.
+/// mesh artifact for a stage that needs less memory than all of it, `edge_list` a text file.
 enum class PortKind {
   polygons,
   mesh,
@@ -41,6 +42,7 @@ enum class PortKind {
   quads,
   opened_mesh,
   tensor_part,
+  edge_list,
   report
 };
 
@@ -50,7 +52,7 @@ Value load_value(PortKind kind, const std::filesystem::path& path);
 
 /// Writes a value: artifacts, and quads also as .obj, .ply or .off as the extension says.
 /// \param mesh  the mesh a field or line set belongs to; unused for others
-/// \pre it is no OpenedMesh, which stages only take
+/// \pre it is no OpenedMesh or EdgeList, which stages only take
 void save_value(const std::filesystem::path& path, const Value& value, const TriMesh* mesh,
                 const Provenance& provenance);
 
@@ -59,7 +61,7 @@ void save_value(const std::filesystem::path& path, const Value& value, const Tri
 void check_output_path(PortKind kind, const std::filesystem::path& path);
 
 /// The mesh a value belongs to; "" where it does not say. Of a TriMesh its own id.
-const std::string& mesh_id_of(const Value& value);
+std::string mesh_id_of(const Value& value);
 
 /// Checks that a value was made for this mesh and fits it, so that its indices may be trusted.
 /// \param mesh_name, name  files or ports for the message

@@ -178,12 +178,12 @@ FitResult fit_vertices(const TriMesh& mesh, const PrincipalField* field, const Q
     observer.report("moving vertices", double(rounds + 1) / static_cast<double>(options.rounds));
   }
   fit.places().store(result.quads);
-  result.quads.mesh.attributes = carry_attributes(mesh, result.quads.mesh, result.quads.provenance);
   double moved = 0;
   for (std::size_t v = 0; v < quads.mesh.positions.size(); ++v) {
     moved = std::max(moved, (result.quads.mesh.positions[v] - quads.mesh.positions[v]).norm());
   }
   const Index divided = fitting::divide_crossing_faces(result.quads.mesh);
+  result.quads.mesh.attributes = carry_attributes(mesh, result.quads.mesh, result.quads.provenance);
   result.report.set("fit.divided_faces", std::int64_t{divided});
   result.report.set("fit.rounds", rounds);
   result.report.set("fit.rms_ratio", before > 0 ? std::sqrt(fit.error() / before) : 1.0);

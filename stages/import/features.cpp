@@ -10,6 +10,7 @@
 #include "stages/import/face_normals.h"
 #include "stages/import/feature_graph.h"
 #include "stages/import/feature_noise.h"
+#include "stages/import/listed_edges.h"
 
 namespace strake::import {
 namespace {
@@ -163,11 +164,13 @@ void flag_attribute_borders(TriMesh& mesh, const FeatureRules& rules, FeatureCou
 
 }  // namespace
 
-FeatureCounts find_features(TriMesh& mesh, const FeatureRules& rules) {
+FeatureCounts find_features(TriMesh& mesh, const FeatureRules& rules, const PolyMesh& input,
+                            const EdgeList* listed) {
   FeatureCounts counts;
   mesh.is_feature.assign(mesh.halfedge_count(), 0);
   if (rules.angle_deg < 180) find_creases(mesh, rules.angle_deg, counts);
   flag_attribute_borders(mesh, rules, counts);
+  if (listed != nullptr) counts.listed_edges = flag_listed_edges(*listed, input, mesh);
   counts.edges =
       static_cast<Index>(std::count(mesh.is_feature.begin(), mesh.is_feature.end(), 1) / 2);
   counts.corners = find_corners(mesh);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "common/core/edge_list.h"
+#include "common/core/poly_mesh.h"
 #include "common/core/tri_mesh.h"
 
 namespace strake::import {
@@ -17,6 +19,7 @@ struct FeatureCounts {
   Index dropped_edges = 0;   ///< of what was noise
   Index label_edges = 0;     ///< between faces of different labels
   Index seam_edges = 0;      ///< where the sides differ in texture coordinates, and not in labels
+  Index listed_edges = 0;    ///< of a list, the boundary excluded
   Index edges = 0;           ///< in the end
   Index corners = 0;
 };
@@ -33,7 +36,8 @@ struct FeatureCounts {
 /// What is noise then is dropped, as `drop_noise` states. The normal of a sliver, which rounding of
 /// the coordinates may have turned, is taken from the neighbour across a long edge.
 ///
-/// Borders of labels and seams are features whatever their shape; none of this applies to them.
+/// Borders of labels, seams and listed edges are features whatever their shape; none of this
+/// applies to them.
 ///
 /// Corners are the vertices where other than two feature or boundary edges meet, or where such a
 /// line turns by more than 50 degrees, measured over 1 % of the diagonal on each side (along a
@@ -41,7 +45,10 @@ struct FeatureCounts {
 /// and only where it turns most. Closed boundaries shorter than 4 % of the diagonal have no corners
 /// by turning.
 ///
+/// \param input   what the mesh was made from, whose vertices the list names
+/// \param listed  edges that are features too; nullptr for none
 /// \pre build_topology has run
-FeatureCounts find_features(TriMesh& mesh, const FeatureRules& rules);
+FeatureCounts find_features(TriMesh& mesh, const FeatureRules& rules, const PolyMesh& input,
+                            const EdgeList* listed);
 
 }  // namespace strake::import

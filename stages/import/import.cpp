@@ -135,6 +135,7 @@ void report_features(const import::FeatureCounts& counts, Report& report) {
   report.set("features.dropped_edges", counts.dropped_edges);
   report.set("features.label_edges", counts.label_edges);
   report.set("features.seam_edges", counts.seam_edges);
+  report.set("features.listed_edges", counts.listed_edges);
   report.set("features.edges", counts.edges);
   report.set("features.corners", counts.corners);
 }
@@ -176,7 +177,8 @@ std::int64_t count_unreferenced(const PolyMesh& mesh) {
 
 }  // namespace
 
-ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Observer& observer) {
+ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Observer& observer,
+                         const EdgeList* listed) {
   ImportResult result;
   Repairs repairs;
   TriMesh frame;  // origin and diagonal
@@ -201,7 +203,8 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
   result.mesh.origin = frame.origin;
   result.mesh.diagonal = frame.diagonal;
   observer.report("finding features", 0.7);
-  const import::FeatureCounts features = import::find_features(result.mesh, feature_rules(options));
+  const import::FeatureCounts features =
+      import::find_features(result.mesh, feature_rules(options), soup, listed);
   if (options.no_attributes) result.mesh.attributes = {};
   build_wedges(result.mesh);
   observer.report("checking", 0.8);

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "common/core/edge_list.h"
 #include "common/core/observer.h"
 #include "common/core/options.h"
 #include "common/core/poly_mesh.h"
@@ -26,6 +27,8 @@ struct ImportResult {
 
 /// Turns a polygon soup into an oriented 2-manifold triangle mesh with its feature graph.
 /// \throw InputError where no usable surface is left, or with `strict` where a repair is needed
-ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Observer& observer);
+/// \param listed  edges of `soup` that are features too; nullptr for none
+ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Observer& observer,
+                         const EdgeList* listed = nullptr);
 
 }  // namespace strake

@@ -10,9 +10,12 @@ namespace strake {
 Stage import_stage() {
   Stage stage;
   stage.name = "import";
-  stage.version = 2;
+  stage.version = 3;
   stage.summary = "Turns a mesh file into a sound triangle mesh with its feature graph.";
-  stage.inputs = {{"input", PortKind::polygons, "mesh file: OBJ, PLY, OFF or STL"}};
+  stage.inputs = {
+      {"input", PortKind::polygons, "mesh file: OBJ, PLY, OFF or STL"},
+      {"feature-edges", PortKind::edge_list,
+       "text file of further feature edges: vertex numbers, from 0, along each", false}};
   stage.output = {"mesh", PortKind::mesh, "mesh artifact to write, .hdf"};
   return with_options<ImportOptions>(
       std::move(stage), [](const Inputs& inputs, const ImportOptions& options, Observer& observer) {
@@ -22,7 +25,8 @@ Stage import_stage() {
           throw InputError(inputs.at("input").origin + ": " + defects.front() +
                            " Leave --strict out to go on without.");
         }
-        ImportResult result = import_mesh(input.mesh, options, observer);
+        ImportResult result =
+            import_mesh(input.mesh, options, observer, inputs.find<EdgeList>("feature-edges"));
         input.read.add_to(result.report);
         return StageResult{std::move(result.mesh), std::move(result.report)};
       });

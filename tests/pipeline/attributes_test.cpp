@@ -75,6 +75,77 @@ TEST_F(AttributeFiles, TextureCoordinatesOfATube) {
   EXPECT_NEAR(covered, 2, 1e-9);
 }
 
+/// A flat sheet of n x n unit cells; vertex j (n + 1) + i is at (i, j).
+PolyMesh sheet(int n) {
+  PolyMesh mesh;
+  for (int j = 0; j <= n; ++j) {
+    for (int i = 0; i <= n; ++i) mesh.positions.emplace_back(i, j, 0);
+  }
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) {
+      const Index a = j * (n + 1) + i;
+      mesh.add_face(std::array<Index, 4>{a, a + 1, a + n + 2, a + n + 1});
+    }
+  }
+  return mesh;
+}
+
+TEST_F(AttributeFiles, ListedEdgesAreEdgesOfTheResult) {
+  // A bent line across a flat sheet of 20 x 20: up to (9, 8), then right to the boundary.
+  const int n = 20;
+  write_mesh(file("sheet.obj"), sheet(n));
+  std::string list = "# up\n\n";
+  for (int j = 0; j <= 8; ++j) list += std::to_string(j * (n + 1) + 9) + " ";
+  list += "  # and to the right\r\n";
+  for (int i = 9; i < n; ++i) {
+    list += std::to_string(8 * (n + 1) + i) + "\t" + std::to_string(8 * (n + 1) + i + 1) + "\n";
+  }
+  put("edges.txt", list);
+  must(
+      "strake remesh sheet.obj -o out.obj --vertices 60 -q --no-evaluate --feature-edges edges.txt "
+      "--keep k");
+  // The length of those edges of the result that lie on the line.
+  const PolyMesh mesh = read("out.obj");
+  double along = 0;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const auto face = mesh.face(f);
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      const Vec3& p = mesh.positions[face[i]];
+      const Vec3& q = mesh.positions[face[(i + 1) % face.size()]];
+      const auto is_on = [&](auto place) { return place(p) && place(q); };
+      constexpr double kNear = 1e-9;
+      if (is_on([](const Vec3& v) { return std::abs(v.x() - 9) < kNear && v.y() < 8 + kNear; }) ||
+          is_on([](const Vec3& v) { return std::abs(v.y() - 8) < kNear && v.x() > 9 - kNear; })) {
+        along += 0.5 * (q - p).norm();  // each edge has two faces
+      }
+    }
+  }
+  EXPECT_NEAR(along, 8 + 11, 1e-9);
+  // The stages one by one give the same, and the list is part of what the result was made from.
+  must("strake-import sheet.obj -o mesh.hdf -q --feature-edges edges.txt");
+  EXPECT_EQ(bytes("mesh.hdf"), bytes("k/mesh.hdf"));
+  EXPECT_NE(must("strake info mesh.hdf").find("from feature-edges"), std::string::npos);
+}
+
+TEST_F(AttributeFiles, ListsOfEdgesThatMakeNoSenseAreRefused) {
+  write_mesh(file("sheet.obj"), sheet(4));
+  const std::vector<std::pair<std::string, std::string>> lists = {
+      {"0 1\n1 two\n", "'edges.txt', line 2: 'two' is no vertex number"},
+      {"0 1.5\n", "line 1: '1.5' is no vertex number"},
+      {"# first\n0 -1\n", "line 2: '-1' is no vertex number"},
+      {"3\n", "line 1: vertex 3 stands alone"},
+      {"0 1 1 2\n", "line 1: vertex 1 follows itself"},
+      {"0 1\n\n24 25\n", "line 3: there is no vertex 25, the mesh has 25"},
+      {"0 1 12\n", "line 1: no edge joins vertices 1 and 12"}};
+  for (const auto& [text, message] : lists) {
+    put("edges.txt", text);
+    const std::string flags = " -q --feature-edges edges.txt";
+    must_fail(3, "strake-import sheet.obj -o mesh.hdf" + flags, message);
+    must_fail(3, "strake remesh sheet.obj -o out.obj" + flags, message);
+  }
+  must_fail(3, "strake-import sheet.obj -o mesh.hdf -q --feature-edges none.txt", "none.txt");
+}
+
 TEST_F(AttributeFiles, CanBeLeftOut) {
   write_mesh(file("tube.obj"), support::seamed_tube(40, 10));
   must("strake-import tube.obj -o mesh.hdf -q --no-attributes --attribute-features none");

@@ -1,0 +1,83 @@
+#include "stages/import/listed_edges.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "common/core/error.h"
+#include "stages/import/feature_graph.h"
+
+namespace strake::import {
+namespace {
+
+using Place = std::array<double, 3>;
+
+Place place_of(const PolyMesh& input, Index vertex) {
+  const Vec3& p = input.positions[vertex];
+  return {p.x(), p.y(), p.z()};
+}
+
+[[noreturn]] void refuse(const EdgeList& list, const EdgeList::Edge& edge,
+                         const std::string& what) {
+  throw InputError(fmt::format("'{}', line {}: {}", list.name, edge.line, what));
+}
+
+void require_vertices(const EdgeList& list, const PolyMesh& input) {
+  for (const EdgeList::Edge& edge : list.edges) {
+    const Index largest = std::max(edge.from, edge.to);
+    if (largest < input.vertex_count()) continue;
+    refuse(
+        list, edge,
+        fmt::format("there is no vertex {}, the mesh has {}; numbers count from 0 in the order of "
+                    "the mesh file",
+                    largest, input.vertex_count()));
+  }
+}
+
+}  // namespace
+
+Index flag_listed_edges(const EdgeList& list, const PolyMesh& input, TriMesh& mesh) {
+  require_vertices(list, input);
+  std::map<std::pair<Place, Place>, bool> found;  // listed edges by the places of their ends
+  std::set<Place> places;
+  const auto key = [](const Place& a, const Place& b) {
+    return std::pair<Place, Place>(std::minmax(a, b));
+  };
+  for (const EdgeList::Edge& edge : list.edges) {
+    const Place a = place_of(input, edge.from);
+    const Place b = place_of(input, edge.to);
+    found[key(a, b)] = false;
+    places.insert({a, b});
+  }
+  std::vector<std::uint8_t> is_end(mesh.positions.size(), 0);
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const Index source = mesh.source_vertex[v];
+    is_end[v] = source != kNone && places.contains(place_of(input, source)) ? 1 : 0;
+  }
+  Index count = 0;
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    if (mesh.edge_of(h) != h || is_end[mesh.from(h)] == 0 || is_end[mesh.to(h)] == 0) continue;
+    const auto listed = found.find(key(place_of(input, mesh.source_vertex[mesh.from(h)]),
+                                       place_of(input, mesh.source_vertex[mesh.to(h)])));
+    if (listed == found.end()) continue;
+    listed->second = true;
+    if (mesh.is_boundary(h)) continue;  // kept anyway
+    set_feature(mesh, h, true);
+    ++count;
+  }
+  for (const EdgeList::Edge& edge : list.edges) {
+    if (found.at(key(place_of(input, edge.from), place_of(input, edge.to)))) continue;
+    refuse(
+        list, edge,
+        fmt::format("no edge joins vertices {} and {}, or repairs have removed it; list vertices "
+                    "that are neighbours",
+                    edge.from, edge.to));
+  }
+  return count;
+}
+
+}  // namespace strake::import
