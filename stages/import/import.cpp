@@ -154,7 +154,7 @@ void warn_of_many_seams(const TriMesh& mesh, const import::FeatureCounts& counts
   if (share <= kMany) return;
   report.warn(
       fmt::format("{:.0f} % of the edges are seams of texture coordinates and are kept as "
-                  "features; --attribute-features labels leaves them out",
+                  "features; --attribute-features none leaves them out",
                   100 * share));
 }
 

@@ -17,10 +17,10 @@ struct Prepared {
 };
 
 inline Prepared prepare(const PolyMesh& soup, const TensorOptions& tensor = {},
-                        const SmoothOptions& smooth = {}) {
+                        const SmoothOptions& smooth = {}, const ImportOptions& import = {}) {
   SilentObserver observer;
   Prepared prepared;
-  prepared.mesh = import_mesh(soup, ImportOptions{}, observer).mesh;
+  prepared.mesh = import_mesh(soup, import, observer).mesh;
   const TensorField field = estimate_tensors(prepared.mesh, tensor, observer).field;
   prepared.field = smooth_tensors(prepared.mesh, field, smooth, observer).field;
   return prepared;

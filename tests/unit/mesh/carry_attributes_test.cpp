@@ -27,8 +27,8 @@ struct Remeshed {
   }
 };
 
-Remeshed remeshed(const PolyMesh& input, std::int64_t vertices) {
-  const support::Prepared prepared = support::prepare(input);
+Remeshed remeshed(const PolyMesh& input, std::int64_t vertices, const ImportOptions& import = {}) {
+  const support::Prepared prepared = support::prepare(input, {}, {}, import);
   TraceOptions options;
   options.vertices = vertices;
   const LineSet lines = support::trace(prepared, options);
@@ -119,7 +119,9 @@ TEST(CarryAttributes, BordersOfLabelsAreEdgesOfTheResult) {
     }
   }
   square.attributes.labels = {labels};
-  const Remeshed result = remeshed(square, 120);
+  ImportOptions options;
+  options.attribute_features = "labels";
+  const Remeshed result = remeshed(square, 120, options);
   const PolyMesh& quads = result.quads.mesh;
   // Areas of the labels: faces that straddled a border would take from one and give to another.
   std::map<Index, double> area;
