@@ -90,6 +90,9 @@ void check_artifact(ArtifactKind kind, const std::string& path) {
     case ArtifactKind::tensor_part:
       read_tensor_part(path);
       break;
+    case ArtifactKind::size:
+      read_size_field(path);
+      break;
   }
 }
 

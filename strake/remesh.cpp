@@ -16,11 +16,13 @@
 #include "stages/fit/stage.h"
 #include "stages/import/stage.h"
 #include "stages/mesh/stage.h"
+#include "stages/refine/stage.h"
+#include "stages/size/stage.h"
 #include "stages/smooth/stage.h"
 #include "stages/tensor/stage.h"
 #include "stages/trace/stage.h"
 #include "strake/commands.h"
-#include "strake/count_search.h"
+#include "strake/goals.h"
 #include "strake/pipeline.h"
 #include "strake/summary.h"
 
@@ -29,8 +31,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Error of a wanted count above which the user is told.
-constexpr double kCountTolerance = 0.1;
+constexpr const char* kDefaultTolerance = "0.1%";
+constexpr std::int64_t kFeedbackRounds = 2;
 
 /// Everything `strake remesh` was asked for.
 struct RemeshCommand {
@@ -38,6 +40,15 @@ struct RemeshCommand {
   std::string output;
   std::string keep;
   std::string feature_edges;
+  std::string density;
+  std::int64_t feedback_rounds = kFeedbackRounds;
+  OptionList own_options = {
+      {.name = "feedback-rounds",
+       .target = &feedback_rounds,
+       .unit = "",
+       .help = "Times that lines are traced again to even out errors, where a count is wanted.",
+       .min = 0,
+       .max = 20}};
   bool no_evaluate = false;
   ShellOptions shell;
 
@@ -47,6 +58,8 @@ struct RemeshCommand {
   Stage trace = trace_stage();
   Stage mesh = mesh_stage();
   Stage fit = fit_stage();
+  Stage size = size_stage();
+  Stage refine = refine_stage();
   Stage evaluate = evaluate_stage();
 
   void add_to(CLI::App& app);
@@ -56,9 +69,8 @@ struct RemeshCommand {
   void run();
 
  private:
-  void trace_and_mesh(Pipeline& pipeline) const;
-  void meet_count(Pipeline& pipeline, const std::string& what, std::int64_t wanted,
-                  ConsoleObserver& console) const;
+  /// Runs the stages from tracing on, as often as the goal takes. \return the port of the result
+  std::string reach_goal(Pipeline& pipeline, ConsoleObserver& console) const;
 };
 
 void RemeshCommand::add_to(CLI::App& app) {
@@ -71,8 +83,14 @@ void RemeshCommand::add_to(CLI::App& app) {
   app.add_option("--keep", keep, "Keep the artifact and report of every stage in this folder.")
       ->type_name("FOLDER");
   app.add_option("--feature-edges", feature_edges, import.inputs.back().help)->type_name("FILE");
+  app.add_option("--density", density,
+                 "PLY file of the same vertices, with a vertex property 'density': wanted vertices "
+                 "per area, relative to what they would be.")
+      ->type_name("FILE.ply");
+  add_options(app, own_options);
   app.add_flag("--no-evaluate", no_evaluate, "Do not measure the result.");
-  for (const Stage* stage : {&import, &tensor, &smooth, &trace, &mesh, &fit, &evaluate}) {
+  for (const Stage* stage :
+       {&import, &tensor, &smooth, &trace, &mesh, &fit, &size, &refine, &evaluate}) {
     add_options(*app.add_option_group("Stage " + stage->name, stage->summary), stage->options);
   }
   shell.add_to(app);
@@ -96,50 +114,28 @@ void RemeshCommand::check() const {
 Provenance RemeshCommand::provenance(const std::string& input_digest) const {
   Provenance whole;
   whole.stage = "remesh";
-  for (const Stage* stage : {&import, &tensor, &smooth, &trace, &mesh, &fit}) {
+  for (const Stage* stage : {&import, &tensor, &smooth, &trace, &mesh, &fit, &size, &refine}) {
     const Provenance part = provenance_of(*stage);
     whole.stage_version += part.stage_version;
     whole.options.insert(whole.options.end(), part.options.begin(), part.options.end());
   }
+  const Option& rounds = own_options.front();
+  whole.options.push_back({rounds.name, rounds.value(), feedback_rounds == kFeedbackRounds});
   whole.inputs = {{"input", input_digest}};
+  if (!density.empty()) whole.inputs.push_back({"density", content_digest(density)});
   return whole;
 }
 
-void RemeshCommand::trace_and_mesh(Pipeline& pipeline) const {
-  pipeline.run(trace);
-  pipeline.run(mesh);
-}
-
-void RemeshCommand::meet_count(Pipeline& pipeline, const std::string& what, std::int64_t wanted,
-                               ConsoleObserver& console) const {
-  const Option& option = trace.option("spacing-scale");
-  CountSearch search(wanted, std::stod(option.value()), option.min, option.max);
-  Pipeline best = pipeline;
-  while (const std::optional<double> scale = search.next()) {
-    option.parse_into(fmt::format("{}", *scale));
-    try {
-      trace_and_mesh(pipeline);
-    } catch (const AlgorithmError& error) {
-      if (search.trial_count() == 0) throw;
-      console.say(std::string("warning: gave up correcting the count: ") + error.what());
-      break;
-    }
-    const PolyMesh& result = pipeline.get<QuadMesh>("quads").mesh;
-    const std::int64_t count = what == "vertices" ? result.vertex_count() : result.face_count();
-    console.say(
-        fmt::format("round {}: {} {}, {} wanted", search.trial_count() + 1, count, what, wanted));
-    search.record(*scale, count);
-    if (search.best().scale == *scale) best = pipeline;
+std::string RemeshCommand::reach_goal(Pipeline& pipeline, ConsoleObserver& console) const {
+  const GoalStages stages{trace, mesh, fit, size, refine};
+  for (const Counted counted : {Counted::vertices, Counted::faces}) {
+    const char* name = counted == Counted::vertices ? "vertices" : "faces";
+    const std::string wanted = trace.option(name).value();
+    if (wanted.empty()) continue;
+    return meet_count(pipeline, stages, counted, std::stoll(wanted), feedback_rounds, console);
   }
-  pipeline = best;
-  option.parse_into(fmt::format("{}", search.best().scale));
-  if (search.error(search.best().count) > kCountTolerance) {
-    console.say(
-        fmt::format("warning: {} {} were wanted, but the nearest result has {}: the shape, "
-                    "--max-spacing or the "
-                    "mesh's own resolution do not allow it",
-                    wanted, what, search.best().count));
-  }
+  const std::string tolerance = trace.option("tolerance").value();
+  return meet_tolerance(pipeline, stages, tolerance.empty() ? kDefaultTolerance : tolerance);
 }
 
 void RemeshCommand::run() {
@@ -155,26 +151,18 @@ void RemeshCommand::run() {
     pipeline.provide("feature-edges", load_value(PortKind::edge_list, feature_edges), feature_edges,
                      content_digest(feature_edges));
   }
+  if (!density.empty()) {
+    pipeline.provide("density", load_value(PortKind::density, density), density,
+                     content_digest(density));
+  }
   for (const Stage* stage : {&import, &tensor, &smooth}) {
     pipeline.run(*stage);
     pipeline.keep(*stage);
   }
-  const std::string vertices = trace.option("vertices").value();
-  const std::string faces = trace.option("faces").value();
-  if (!vertices.empty()) {
-    meet_count(pipeline, "vertices", std::stoll(vertices), console);
-  } else if (!faces.empty()) {
-    meet_count(pipeline, "faces", std::stoll(faces), console);
-  } else {
-    trace_and_mesh(pipeline);
-  }
-  pipeline.keep(trace);
-  pipeline.keep(mesh);
-  pipeline.run(fit);
-  pipeline.keep(fit);
-  const QuadMesh& quads = pipeline.get<QuadMesh>("fitted");
+  const std::string port = reach_goal(pipeline, console);
+  const QuadMesh& quads = pipeline.get<QuadMesh>(port);
   if (!no_evaluate) {
-    pipeline.provide_as("candidate", Polygons{quads.mesh, quads.mesh_id, {}}, "fitted");
+    pipeline.provide_as("candidate", Polygons{quads.mesh, quads.mesh_id, {}}, port);
     pipeline.run(evaluate);
     pipeline.keep(evaluate);
   }

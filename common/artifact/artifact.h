@@ -17,7 +17,7 @@
 /// The files that stages hand to each other; FORMAT.md specifies them.
 namespace strake {
 
-enum class ArtifactKind { mesh, tensor, field, lines, quads, tensor_part };
+enum class ArtifactKind { mesh, tensor, field, lines, quads, tensor_part, size };
 
 /// "mesh", "tensor", ... as in the file.
 std::string kind_name(ArtifactKind kind);
@@ -42,6 +42,8 @@ bool write_artifact(const std::filesystem::path& path, const QuadMesh& quads,
                     const Provenance& provenance);
 bool write_artifact(const std::filesystem::path& path, const TensorPart& part,
                     const Provenance& provenance);
+bool write_artifact(const std::filesystem::path& path, const SizeField& size, const TriMesh& mesh,
+                    const Provenance& provenance);
 
 /// Reads an artifact back exactly as it was written.
 /// \throw InputError naming file and dataset where the file is missing, damaged, of another kind or
@@ -52,6 +54,7 @@ PrincipalField read_principal_field(const std::filesystem::path& path);
 LineSet read_line_set(const std::filesystem::path& path);
 QuadMesh read_quad_mesh(const std::filesystem::path& path);
 TensorPart read_tensor_part(const std::filesystem::path& path);
+SizeField read_size_field(const std::filesystem::path& path);
 
 /// Opens a mesh artifact to be read in blocks. Shapes are checked at once, numbers and indices when
 /// they are read; whether twins and wedges agree with the faces is left to the caller.

@@ -102,6 +102,31 @@ TensorPart read_tensor_part(const std::filesystem::path& path) {
   return part;
 }
 
+bool write_artifact(const std::filesystem::path& path, const SizeField& size, const TriMesh& mesh,
+                    const Provenance& provenance) {
+  ArtifactWriter file(path, ArtifactKind::size, size.mesh_id, provenance);
+  file.wedge_grid(mesh);
+  file.own("along", size.along);
+  file.own("across", size.across);
+  for (const char* name : {"along", "across"}) file.show(name, std::string("PointData/") + name);
+  return file.commit();
+}
+
+SizeField read_size_field(const std::filesystem::path& path) {
+  const ArtifactReader file(path, ArtifactKind::size);
+  SizeField size;
+  size.mesh_id = file.mesh_id();
+  size.along = file.own<double>("along");
+  size.across = file.own<double>("across");
+  file.require_rows(size.across, size.along.size(), "across");
+  for (const auto& [name, rows] : {std::pair{"along", &size.along}, {"across", &size.across}}) {
+    file.require_finite(*rows, name);
+    const bool positive = std::all_of(rows->begin(), rows->end(), [](double d) { return d > 0; });
+    file.require(positive, name, "has distances that are not positive");
+  }
+  return size;
+}
+
 bool write_artifact(const std::filesystem::path& path, const PrincipalField& field,
                     const TriMesh& mesh, const Provenance& provenance) {
   ArtifactWriter file(path, ArtifactKind::field, field.mesh_id, provenance);

@@ -10,8 +10,8 @@ namespace strake {
 namespace {
 
 constexpr const char* kContent = "content";
-constexpr std::array<const char*, 6> kKindNames = {"mesh",  "tensor", "field",
-                                                   "lines", "quads",  "tensor_part"};
+constexpr std::array<const char*, 7> kKindNames = {"mesh",  "tensor",      "field", "lines",
+                                                   "quads", "tensor_part", "size"};
 
 /// Kind and version of an open file. \throw InputError where either is unknown
 ArtifactKind read_kind(const hdf5::Reader& file) {

@@ -13,6 +13,7 @@ enum class ExitCode : int {
   bad_input = 3,
   precondition = 4,
   algorithm_failed = 5,
+  tolerance_missed = 6,
   interrupted = 130,
 };
 
@@ -49,6 +50,13 @@ class AlgorithmError : public Error {
  public:
   explicit AlgorithmError(const std::string& message)
       : Error(ExitCode::algorithm_failed, message) {}
+};
+
+/// A result is farther from its surface than was asked for, so it is not handed out.
+class ToleranceError : public Error {
+ public:
+  explicit ToleranceError(const std::string& message)
+      : Error(ExitCode::tolerance_missed, message) {}
 };
 
 /// The user asked to stop (SIGINT, SIGTERM).

@@ -34,4 +34,19 @@ struct PrincipalField {
   bool cross_extended = false;           ///< whether `cross` is the smooth 4-symmetric extension
 };
 
+/// Wanted distances between neighbouring lines at every wedge, not graded yet: what tracing takes
+/// instead of those that curvature gives, where errors have been measured.
+struct SizeField {
+  std::string mesh_id;
+  std::vector<double> along;   ///< [W] model units, positive, measured along the field's `cross`
+  std::vector<double> across;  ///< [W] likewise, measured across it
+};
+
+/// How densely a user wants the vertices of the result: vertices per area, relative to what they
+/// would be without it.
+struct DensityField {
+  std::string mesh_id;        ///< "": it goes by the vertices of the file that was imported
+  std::vector<double> value;  ///< [vertices of that file] positive
+};
+
 }  // namespace strake

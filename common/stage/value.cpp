@@ -70,6 +70,7 @@ bool fits(const TriMesh& mesh, const Value& value) {
                           return std::all_of(faces.begin(), faces.end(),
                                              [&](Index face) { return face < mesh.face_count(); });
                         },
+                        [&](const SizeField& size) { return size.along.size() == wedges; },
                         [](const auto&) { return true; },
                     },
                     value);
@@ -97,6 +98,10 @@ Value load_value(PortKind kind, const fs::path& path) {
       return read_tensor_part(path);
     case PortKind::edge_list:
       return read_edge_list(path);
+    case PortKind::size:
+      return read_size_field(path);
+    case PortKind::density:
+      return DensityField{"", read_density(path)};
     case PortKind::report:
       break;
   }
@@ -105,26 +110,28 @@ Value load_value(PortKind kind, const fs::path& path) {
 
 void save_value(const fs::path& path, const Value& value, const TriMesh* mesh,
                 const Provenance& provenance) {
-  std::visit(Overloaded{
-                 [&](const Polygons& polygons) { write_mesh(path, polygons.mesh); },
-                 [&](const TriMesh& own) { write_artifact(path, own, provenance); },
-                 [&](const TensorPart& part) { write_artifact(path, part, provenance); },
-                 [&](const OpenedMesh&) {
-                   throw Error(ExitCode::internal, "an opened mesh is not written");
-                 },
-                 [&](const EdgeList&) {
-                   throw Error(ExitCode::internal, "a list of edges is not written");
-                 },
-                 [&](const QuadMesh& quads) {
-                   if (lower_extension(path) == kArtifactExtension) {
-                     write_artifact(path, quads, provenance);
-                   } else {
-                     write_mesh(path, quads.mesh);
-                   }
-                 },
-                 [&](const auto& field) { write_artifact(path, field, *mesh, provenance); },
-             },
-             value);
+  std::visit(
+      Overloaded{
+          [&](const Polygons& polygons) { write_mesh(path, polygons.mesh); },
+          [&](const TriMesh& own) { write_artifact(path, own, provenance); },
+          [&](const TensorPart& part) { write_artifact(path, part, provenance); },
+          [&](const OpenedMesh&) {
+            throw Error(ExitCode::internal, "an opened mesh is not written");
+          },
+          [&](const EdgeList&) {
+            throw Error(ExitCode::internal, "a list of edges is not written");
+          },
+          [&](const DensityField&) { throw Error(ExitCode::internal, "a density is not written"); },
+          [&](const QuadMesh& quads) {
+            if (lower_extension(path) == kArtifactExtension) {
+              write_artifact(path, quads, provenance);
+            } else {
+              write_mesh(path, quads.mesh);
+            }
+          },
+          [&](const auto& field) { write_artifact(path, field, *mesh, provenance); },
+      },
+      value);
 }
 
 void check_output_path(PortKind kind, const fs::path& path) {
@@ -160,7 +167,10 @@ std::string mesh_id_of(const Value& value) {
 void check_belongs(const TriMesh& mesh, const std::string& mesh_name, const Value& value,
                    const std::string& name) {
   const std::string id = mesh_id_of(value);
-  if (id.empty() && std::holds_alternative<Polygons>(value)) return;
+  if (id.empty() &&
+      (std::holds_alternative<Polygons>(value) || std::holds_alternative<DensityField>(value))) {
+    return;
+  }
   if (id != mesh.id) {
     throw PreconditionError("'" + name + "' belongs to another mesh than '" + mesh_name + "' (" +
                             id + ", not " + mesh.id +

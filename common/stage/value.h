@@ -5,6 +5,7 @@
 #include <string>
 #include <variant>
 
+#include "common/artifact/meshfile/density_reader.h"
 #include "common/artifact/meshfile/mesh_reader.h"
 #include "common/artifact/provenance.h"
 #include "common/core/edge_list.h"
@@ -29,10 +30,11 @@ struct Polygons {
 using OpenedMesh = std::shared_ptr<const MeshBlocks>;
 
 using Value = std::variant<Polygons, TriMesh, TensorField, PrincipalField, LineSet, QuadMesh,
-                           OpenedMesh, TensorPart, EdgeList>;
+                           OpenedMesh, TensorPart, EdgeList, SizeField, DensityField>;
 
 /// Kinds of values a stage takes or gives; `report` is none but the report itself, `opened_mesh` a
-/// mesh artifact for a stage that needs less memory than all of it, `edge_list` a text file.
+/// mesh artifact for a stage that needs less memory than all of it, `edge_list` a text file,
+/// `density` a PLY file whose vertices have that property; the last two are only read.
 enum class PortKind {
   polygons,
   mesh,
@@ -43,6 +45,8 @@ enum class PortKind {
   opened_mesh,
   tensor_part,
   edge_list,
+  size,
+  density,
   report
 };
 
@@ -52,7 +56,7 @@ Value load_value(PortKind kind, const std::filesystem::path& path);
 
 /// Writes a value: artifacts, and quads also as .obj, .ply or .off as the extension says.
 /// \param mesh  the mesh a field or line set belongs to; unused for others
-/// \pre it is no OpenedMesh or EdgeList, which stages only take
+/// \pre it is no OpenedMesh, EdgeList or DensityField, which stages only take
 void save_value(const std::filesystem::path& path, const Value& value, const TriMesh* mesh,
                 const Provenance& provenance);
 

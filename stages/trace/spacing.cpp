@@ -69,8 +69,8 @@ double predicted_vertices(const std::vector<double>& areas, const Spacing& spaci
   return sum;
 }
 
-SpacingModel::SpacingModel(const TriMesh& mesh, const PrincipalField& field)
-    : mesh_(mesh), field_(field), areas_(wedge_areas(mesh)) {
+SpacingModel::SpacingModel(const TriMesh& mesh, const PrincipalField& field, const SizeField* size)
+    : mesh_(mesh), field_(field), size_(size), areas_(wedge_areas(mesh)) {
   const Index n = mesh.wedge_count();
   curvature_along_.resize(n);
   curvature_across_.resize(n);
@@ -100,17 +100,26 @@ void SpacingModel::bound_along(const std::vector<Index>& halfedges, double lengt
   }
 }
 
+void SpacingModel::multiply_density(const std::vector<double>& density) {
+  shrink_.clear();
+  for (const double d : density) shrink_.push_back(1 / std::sqrt(d));
+}
+
 Spacing SpacingModel::ungraded(double tolerance, const SpacingLimits& limits) const {
   Spacing spacing;
   spacing.along.resize(areas_.size());
   spacing.across.resize(areas_.size());
+  const double size_factor = size_ != nullptr ? std::sqrt(tolerance) : 1;
   for (std::size_t w = 0; w < areas_.size(); ++w) {
-    const auto distance = [&](double curvature) {
-      const double d = spacing_for_curvature(curvature, tolerance, limits.largest);
-      return std::max(limits.smallest, limits.scale * d);
+    const auto distance = [&](double curvature, const std::vector<double> SizeField::*size) {
+      const double d = size_ != nullptr
+                           ? size_factor * (size_->*size)[w]
+                           : spacing_for_curvature(curvature, tolerance, limits.largest);
+      const double wanted = std::min(limits.largest, shrink_.empty() ? d : shrink_[w] * d);
+      return std::max(limits.smallest, limits.scale * wanted);
     };
-    const double a = distance(curvature_along_[w]);
-    const double b = distance(curvature_across_[w]);
+    const double a = distance(curvature_along_[w], &SizeField::along);
+    const double b = distance(curvature_across_[w], &SizeField::across);
     spacing.along[w] = std::min(a, limits.aspect_ratio * b);
     spacing.across[w] = std::min(b, limits.aspect_ratio * a);
   }
@@ -175,8 +184,9 @@ Spacing SpacingModel::for_tolerance(double tolerance, const SpacingLimits& limit
 
 double SpacingModel::tolerance_for_count(double count, const SpacingLimits& limits) const {
   constexpr double kAccuracy = 0.02;
-  const double least = std::log(1e-9 * mesh_.diagonal);
-  const double largest = std::log(0.2 * mesh_.diagonal);
+  const double unit = size_ != nullptr ? 1e3 : mesh_.diagonal;
+  const double least = std::log(1e-9 * unit);
+  const double largest = std::log(0.2 * unit);
   double low = least;
   double high = largest;
   for (int round = 0; round < 24; ++round) {  // without grading: cheap, and not far off

@@ -32,13 +32,18 @@ double predicted_vertices(const std::vector<double>& areas, const Spacing& spaci
 /// Computes line distances for one surface and field; keeps what does not depend on the tolerance.
 class SpacingModel {
  public:
-  SpacingModel(const TriMesh& mesh, const PrincipalField& field);
+  /// \param size  distances to take instead of those that curvature gives; kept by reference
+  SpacingModel(const TriMesh& mesh, const PrincipalField& field, const SizeField* size = nullptr);
 
   /// Keeps the spacing along some half-edges, on both sides, below a length (model units).
   void bound_along(const std::vector<Index>& halfedges, double length);
 
+  /// Wants so many times the vertices per area. \param density  [W] positive
+  void multiply_density(const std::vector<double>& density);
+
   /// Graded spacings for a tolerance (model units). The normal curvature along each arm of the
-  /// cross counts, so that nothing depends on which arm is called minimum.
+  /// cross counts, so that nothing depends on which arm is called minimum. Of a size field, which
+  /// knows no tolerance, `tolerance` is the square of a factor on its distances.
   [[nodiscard]] Spacing for_tolerance(double tolerance, const SpacingLimits& limits) const;
 
   /// The tolerance whose graded spacings predict `count` vertices, within 2 % where there is one.
@@ -58,7 +63,9 @@ class SpacingModel {
 
   const TriMesh& mesh_;
   const PrincipalField& field_;
+  const SizeField* size_;
   std::vector<std::pair<Index, double>> bounds_;  ///< keys and the largest value each may have
+  std::vector<double> shrink_;                    ///< [W] factor on distances; empty: 1
   std::vector<double> areas_;                     ///< [W]
   std::vector<double> curvature_along_;           ///< [W] |normal curvature| along the cross
   std::vector<double> curvature_across_;          ///< [W]

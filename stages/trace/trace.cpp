@@ -7,6 +7,7 @@
 #include <random>
 
 #include "common/core/error.h"
+#include "common/geometry/density.h"
 #include "common/geometry/mesh_measures.h"
 #include "common/geometry/topology/topology.h"
 #include "stages/trace/barrier_lines.h"
@@ -156,17 +157,23 @@ class LineCollector {
 
 /// Spacings as the options ask for them, and the tolerance they stand for.
 std::pair<Spacing, double> choose_spacing(const TriMesh& mesh, const PrincipalField& field,
-                                          const TraceOptions& options) {
+                                          const WantedSizes& sizes, const TraceOptions& options) {
   const int wanted = int(options.tolerance.has_value()) + int(options.vertices.has_value()) +
                      int(options.faces.has_value());
   if (wanted > 1) throw UsageError("give only one of --tolerance, --vertices and --faces");
   SpacingLimits limits;
   limits.smallest = kSmallestSpacing * mesh.diagonal;
   limits.largest = options.max_spacing.value_or(kDefaultMaxSpacing).resolve(mesh.diagonal);
-  SpacingModel model(mesh, field);
+  SpacingModel model(mesh, field, sizes.size);
+  // A size field was made from distances that had the density in them already.
+  if (sizes.density != nullptr && sizes.size == nullptr) {
+    model.multiply_density(density_at_wedges(mesh, *sizes.density));
+  }
   bound_rings(mesh, model);
   double family_tolerance =
-      kShareOfFamily * options.tolerance.value_or(kDefaultTolerance).resolve(mesh.diagonal);
+      sizes.size != nullptr
+          ? 1
+          : kShareOfFamily * options.tolerance.value_or(kDefaultTolerance).resolve(mesh.diagonal);
   if (options.vertices || options.faces) {
     const auto count = static_cast<double>(options.vertices ? *options.vertices : *options.faces);
     double area = 0;
@@ -193,9 +200,9 @@ std::vector<Seed> first_seeds(const TraceDomain& domain, const std::vector<Barri
 }  // namespace
 
 TraceResult trace_lines(const TriMesh& mesh, const PrincipalField& field,
-                        const TraceOptions& options, Observer& observer) {
+                        const TraceOptions& options, Observer& observer, const WantedSizes& sizes) {
   observer.report("choosing line distances", 0);
-  auto [spacing, tolerance] = choose_spacing(mesh, field, options);
+  auto [spacing, tolerance] = choose_spacing(mesh, field, sizes, options);
   const TraceDomain domain{mesh, field, spacing, face_normals(mesh)};
   TracerSettings settings;
   settings.stop_fraction = options.stop_fraction;

@@ -22,6 +22,13 @@ struct TraceOptions {
   OptionList declare();
 };
 
+/// What may be known of the distances between lines beside the options; nullptr: nothing.
+struct WantedSizes {
+  const SizeField* size = nullptr;        ///< to take instead of a tolerance and the curvature
+  const DensityField* density = nullptr;  ///< distances shrink with its root; not used with `size`,
+                                          ///< which was made from distances that know it
+};
+
 struct TraceResult {
   LineSet lines;
   Report report;
@@ -29,7 +36,10 @@ struct TraceResult {
 
 /// Covers the surface with lines of minimum and maximum curvature, boundary and feature lines.
 /// Paper: [MK04] sections 3 and 4.2. Deterministic for any thread count.
+/// \throw UsageError where more than one of tolerance and counts is given, PreconditionError where
+///        the density is of another mesh
 TraceResult trace_lines(const TriMesh& mesh, const PrincipalField& field,
-                        const TraceOptions& options, Observer& observer);
+                        const TraceOptions& options, Observer& observer,
+                        const WantedSizes& sizes = {});
 
 }  // namespace strake

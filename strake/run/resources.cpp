@@ -54,6 +54,8 @@ Resources default_resources(std::string_view program) {
   if (program == "trace") return needs(1200, 400);
   if (program == "mesh") return needs(1500, 100);
   if (program == "fit") return needs(1200, 60);
+  if (program == "size") return needs(600, 60);
+  if (program == "refine") return needs(800, 400);
   if (program == "evaluate") return needs(1200, 50);
   return needs(1500, 400);
 }

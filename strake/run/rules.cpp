@@ -128,7 +128,8 @@ Rule read_rule(const YamlView::Entry& entry, std::vector<Setting>& settings) {
 
 /// Whether what the maker gives may go into the port.
 bool fits(PortKind given, PortKind wanted) {
-  return given == wanted || (given == PortKind::quads && wanted == PortKind::polygons);
+  return given == wanted || (given == PortKind::quads && wanted == PortKind::polygons) ||
+         (given == PortKind::polygons && wanted == PortKind::density);
 }
 
 /// Checks that each input is made by some rule, of the right kind; drops ports left open.

@@ -9,7 +9,9 @@
 #include "stages/fit/stage.h"
 #include "stages/import/stage.h"
 #include "stages/mesh/stage.h"
+#include "stages/refine/stage.h"
 #include "stages/sample/stage.h"
+#include "stages/size/stage.h"
 #include "stages/smooth/stage.h"
 #include "stages/tensor/part/stage.h"
 #include "stages/tensor/stage.h"
@@ -25,9 +27,10 @@ constexpr const char* kTensorPart = "tensor-part";
 
 const std::vector<std::pair<std::string, Maker>>& catalog() {
   static const std::vector<std::pair<std::string, Maker>> kCatalog = {
-      {"sample", sample_stage}, {"import", import_stage},     {"tensor", tensor_stage},
-      {"smooth", smooth_stage}, {"trace", trace_stage},       {"mesh", mesh_stage},
-      {"fit", fit_stage},       {"evaluate", evaluate_stage}, {"export", export_stage},
+      {"sample", sample_stage},     {"import", import_stage}, {"tensor", tensor_stage},
+      {"smooth", smooth_stage},     {"trace", trace_stage},   {"mesh", mesh_stage},
+      {"fit", fit_stage},           {"refine", refine_stage}, {"size", size_stage},
+      {"evaluate", evaluate_stage}, {"export", export_stage},
   };
   return kCatalog;
 }

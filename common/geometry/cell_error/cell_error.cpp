@@ -1,0 +1,207 @@
+#include "common/geometry/cell_error/cell_error.h"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace strake {
+namespace {
+
+/// Rows of samples on a triangle of the result.
+constexpr int kRows = 5;
+/// Samples of the input lie this share of a mean cell's edge apart.
+constexpr double kInputStep = 0.2;
+constexpr int kMostInputRows = 64;
+
+using Triangle = std::array<Index, 3>;
+using Barycentric = std::array<double, 3>;
+
+/// Calls use(barycentric) for the centres of a grid of rows (rows + 1) / 2 places of a triangle.
+template <class Use>
+void for_each_place(int rows, const Use& use) {
+  for (int i = 0; i < rows; ++i) {
+    for (int j = 0; i + j < rows; ++j) {
+      const double u = (i + 1.0 / 3) / rows;
+      const double v = (j + 1.0 / 3) / rows;
+      use(Barycentric{1 - u - v, u, v});
+    }
+  }
+}
+
+int place_count(int rows) { return rows * (rows + 1) / 2; }
+
+Vec3 place(const std::vector<Vec3>& positions, const Triangle& corners, const Barycentric& at) {
+  return at[0] * positions[corners[0]] + at[1] * positions[corners[1]] +
+         at[2] * positions[corners[2]];
+}
+
+double area(const std::vector<Vec3>& positions, const Triangle& corners) {
+  const Vec3& a = positions[corners[0]];
+  return (positions[corners[1]] - a).cross(positions[corners[2]] - a).norm() / 2;
+}
+
+/// Sums over samples.
+struct Sums {
+  double square = 0;
+  double weight = 0;
+  double largest = 0;
+
+  void add(double distance, double weight_of_sample) {
+    square += weight_of_sample * distance * distance;
+    weight += weight_of_sample;
+    largest = std::max(largest, distance);
+  }
+  void add(const Sums& other) {
+    square += other.square;
+    weight += other.weight;
+    largest = std::max(largest, other.largest);
+  }
+  [[nodiscard]] double mean_square() const { return weight > 0 ? square / weight : 0; }
+};
+
+/// Least squares fit of heights s over a plane: s = c + g u + h v + a u^2 + b v^2 + t u v.
+class BendFit {
+ public:
+  /// \param normal  of the plane, not zero
+  BendFit(const Vec3& centre, const Vec3& normal) : centre_(centre) {
+    u_ = normal.unitOrthogonal();
+    v_ = normal.normalized().cross(u_);
+  }
+
+  void add(const Vec3& at, double height) {
+    const double u = u_.dot(at - centre_);
+    const double v = v_.dot(at - centre_);
+    Row row;
+    row << 1, u, v, u * u, v * v, u * v;
+    normal_ += row * row.transpose();
+    right_ += height * row;
+    reach_ = std::max(reach_, std::hypot(u, v));
+  }
+
+  [[nodiscard]] Mat3 bend() const {
+    if (!(reach_ > 0)) return Mat3::Zero();
+    Row scale;
+    scale << 1, reach_, reach_, reach_ * reach_, reach_ * reach_, reach_ * reach_;
+    const Row inverse = scale.cwiseInverse();
+    const Eigen::Matrix<double, 6, 6> scaled =
+        inverse.asDiagonal() * normal_ * inverse.asDiagonal();
+    const Row found = inverse.asDiagonal() * scaled.completeOrthogonalDecomposition().solve(
+                                                 Row(inverse.asDiagonal() * right_));
+    return found[3] * u_ * u_.transpose() + found[4] * v_ * v_.transpose() +
+           found[5] / 2 * (u_ * v_.transpose() + v_ * u_.transpose());
+  }
+
+ private:
+  using Row = Eigen::Matrix<double, 6, 1>;
+
+  Vec3 centre_;
+  Vec3 u_;
+  Vec3 v_;
+  Eigen::Matrix<double, 6, 6> normal_ = Eigen::Matrix<double, 6, 6>::Zero();
+  Row right_ = Row::Zero();
+  double reach_ = 0;
+};
+
+/// Measures from one face of the result to the input.
+Sums measure_face(const ComparedSurfaces& surfaces, Index f, Mat3& bend) {
+  Sums sums;
+  const std::vector<Vec3>& positions = surfaces.positions();
+  const std::span<const Index> face = surfaces.faces().face(f);
+  Vec3 centre = Vec3::Zero();
+  for (const Index v : face) {
+    centre += positions[v] / static_cast<double>(face.size());
+    sums.add(surfaces.input().closest(positions[v]).distance, 0);
+  }
+  const Vec3 normal = newell_normal(positions, face);
+  const bool has_plane = normal.norm() > 0;
+  BendFit fit(centre, has_plane ? normal : Vec3(Vec3::UnitX()));
+  for (Index t = surfaces.first_triangle(f); t < surfaces.first_triangle(f + 1); ++t) {
+    const Triangle& corners = surfaces.triangles().corners[t];
+    const double weight = area(positions, corners) / place_count(kRows);
+    for_each_place(kRows, [&](const Barycentric& at) {
+      const Vec3 p = place(positions, corners, at);
+      const ClosestPoint foot = surfaces.input().closest(p);
+      sums.add(foot.distance, weight);
+      const double side =
+          (p - surfaces.input().point(foot)).dot(surfaces.input_normals()[foot.triangle]);
+      fit.add(p, std::copysign(foot.distance, -side));
+    });
+  }
+  bend = has_plane ? fit.bend() : Mat3(Mat3::Zero());
+  return sums;
+}
+
+/// Measures from the input to the faces of the result nearest to its samples.
+std::vector<Sums> measure_input(const ComparedSurfaces& surfaces, std::vector<Index>& vertex_cell) {
+  struct Hit {
+    Index cell;
+    double distance;
+  };
+  const TriMesh& mesh = surfaces.mesh();
+  const auto look = [&](const Vec3& p) {
+    const ClosestPoint foot = surfaces.result().closest(p);
+    return Hit{surfaces.triangles().face[foot.triangle], foot.distance};
+  };
+  double total = 0;
+  for (const auto& face : mesh.faces) total += area(mesh.positions, face);
+  const auto cells = static_cast<std::size_t>(surfaces.faces().face_count());
+  const double step = kInputStep * std::sqrt(total / static_cast<double>(cells));
+  std::vector<std::vector<Hit>> hits(mesh.faces.size());
+  tbb::parallel_for(std::size_t{0}, hits.size(), [&](std::size_t f) {
+    const double rows = std::ceil(std::sqrt(2 * area(mesh.positions, mesh.faces[f])) / step);
+    for_each_place(static_cast<int>(std::clamp(rows, 1.0, double(kMostInputRows))),
+                   [&](const Barycentric& at) {
+                     hits[f].push_back(look(place(mesh.positions, mesh.faces[f], at)));
+                   });
+  });
+  std::vector<Hit> at_vertex(mesh.positions.size());
+  tbb::parallel_for(std::size_t{0}, at_vertex.size(),
+                    [&](std::size_t v) { at_vertex[v] = look(mesh.positions[v]); });
+  std::vector<Sums> sums(cells);
+  for (std::size_t f = 0; f < hits.size(); ++f) {
+    const double weight = area(mesh.positions, mesh.faces[f]) / static_cast<double>(hits[f].size());
+    for (const Hit& hit : hits[f]) sums[hit.cell].add(hit.distance, weight);
+  }
+  vertex_cell.clear();
+  for (const Hit& hit : at_vertex) {
+    sums[hit.cell].add(hit.distance, 0);
+    vertex_cell.push_back(hit.cell);
+  }
+  return sums;
+}
+
+}  // namespace
+
+Mat3 cell_bend(const ComparedSurfaces& surfaces, Index face) {
+  Mat3 bend;
+  measure_face(surfaces, face, bend);
+  return bend;
+}
+
+ErrorMap measure_cells(const ComparedSurfaces& surfaces) {
+  const auto cells = static_cast<std::size_t>(surfaces.faces().face_count());
+  ErrorMap map;
+  map.cells.resize(cells);
+  std::vector<Sums> to_input(cells);
+  tbb::parallel_for(std::size_t{0}, cells, [&](std::size_t f) {
+    to_input[f] = measure_face(surfaces, static_cast<Index>(f), map.cells[f].bend);
+  });
+  const std::vector<Sums> from_input = measure_input(surfaces, map.vertex_cell);
+  Sums all_to;
+  Sums all_from;
+  for (std::size_t f = 0; f < cells; ++f) {
+    Sums both = to_input[f];
+    both.add(from_input[f]);
+    map.cells[f].rms = std::sqrt(both.mean_square());
+    map.cells[f].largest = both.largest;
+    all_to.add(to_input[f]);
+    all_from.add(from_input[f]);
+  }
+  map.rms = std::sqrt((all_to.mean_square() + all_from.mean_square()) / 2);
+  map.largest = std::max(all_to.largest, all_from.largest);
+  return map;
+}
+
+}  // namespace strake

@@ -1,0 +1,27 @@
+#include "common/geometry/cell_error/compared_surfaces.h"
+
+#include "common/geometry/mesh_measures.h"
+
+namespace strake {
+namespace {
+
+std::vector<Vec3> moved(std::vector<Vec3> positions, const Vec3& origin) {
+  for (Vec3& p : positions) p -= origin;
+  return positions;
+}
+
+}  // namespace
+
+ComparedSurfaces::ComparedSurfaces(const TriMesh& mesh, const QuadMesh& quads)
+    : mesh_(mesh),
+      quads_(quads),
+      triangles_(triangulate_faces(quads.mesh)),
+      first_(static_cast<std::size_t>(quads.mesh.face_count()) + 1, 0),
+      input_(mesh.positions, mesh.faces),
+      result_(moved(quads.mesh.positions, mesh.origin), triangles_.corners),
+      input_normals_(face_normals(mesh)) {
+  for (const Index f : triangles_.face) ++first_[f + 1];
+  for (std::size_t f = 1; f < first_.size(); ++f) first_[f] += first_[f - 1];
+}
+
+}  // namespace strake

@@ -1,0 +1,32 @@
+#include "stages/refine/refine.h"
+
+namespace strake {
+
+OptionList RefineOptions::declare() {
+  return {
+      {.name = "refine-tolerance",
+       .target = &tolerance,
+       .unit = "length",
+       .help = "Divide cells that are farther than this from the surface, until none is.",
+       .min = 1e-6,
+       .max = 0.2},
+      {.name = "refine-vertices",
+       .target = &vertices,
+       .unit = "",
+       .help = "Divide the cells farthest from the surface, up to about this number of vertices.",
+       .min = 4,
+       .max = 1e8},
+      {.name = "refine-rounds",
+       .target = &rounds,
+       .unit = "",
+       .help = "Times that cells are measured and divided.",
+       .min = 0,
+       .max = 100},
+      {.name = "refine-partly",
+       .target = &partly,
+       .unit = "",
+       .help = "Hand on the result also where it is not within the tolerance yet."},
+  };
+}
+
+}  // namespace strake

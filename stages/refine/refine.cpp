@@ -1,0 +1,317 @@
+#include "stages/refine/refine.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "common/core/error.h"
+#include "common/geometry/cell_error/cell_error.h"
+#include "common/geometry/cell_error/tolerance_check.h"
+#include "common/geometry/poly_topology/face_shape.h"
+#include "stages/refine/split_cells.h"
+#include "stages/refine/surface_cells.h"
+#include "stages/refine/surface_points.h"
+
+namespace strake {
+namespace {
+
+/// Of the tolerance, kept for the rounding of whoever measures again.
+constexpr double kMargin = 1e-3;
+constexpr std::size_t kLeastMaxSides = 5;
+/// Heights below this share of what a cell is off by do not explain it.
+constexpr double kExplains = 0.25;
+constexpr std::size_t kNamedPlaces = 5;
+/// Rounds in which the cell nearest to a place of the input is divided. What is left after that is
+/// mostly nearest to a cell that does not lie over it.
+constexpr std::int64_t kRoundsInSpace = 3;
+/// Rounds after which, in turn with dividing, vertices are moved to the places that are left.
+constexpr std::int64_t kRoundsOfDividing = 6;
+/// Rounds in which the worst cells are divided up to a count.
+constexpr std::int64_t kRoundsOfCount = 4;
+/// Vertices that dividing a cell gives, about.
+constexpr double kVerticesPerCell = 1.5;
+
+/// A cell to be divided.
+struct Target {
+  Index face = kNone;
+  double distance = 0;  ///< that it is off by
+};
+
+class Refinement {
+ public:
+  Refinement(const TriMesh& mesh, QuadMesh quads)
+      : mesh_(mesh), quads_(std::move(quads)), points_(mesh), max_sides_(kLeastMaxSides) {
+    for (Index f = 0; f < quads_.mesh.face_count(); ++f) {
+      max_sides_ = std::max(max_sides_, quads_.mesh.face(f).size());
+    }
+  }
+
+  [[nodiscard]] const QuadMesh& quads() const { return quads_; }
+
+  /// Puts vertices that are farther than this off the surface back onto it.
+  void put_back(const SurfaceDistance& input, double tolerance) {
+    for (Index v = 0; v < quads_.mesh.vertex_count(); ++v) {
+      Vec3& p = quads_.mesh.positions[v];
+      if (input.closest_within(p - mesh_.origin, tolerance).triangle != kNone) continue;
+      p = mesh_.origin +
+          place_of(mesh_, {quads_.provenance.face[v], quads_.provenance.barycentric[v]});
+    }
+  }
+
+  /// Moves the vertex nearest on the surface to each of these places of the input there, so that
+  /// they are reached for certain. Vertices on feature and boundary lines stay.
+  void reach(const std::vector<Excess>& excess) {
+    const std::vector<Index> nearest = nearest_on_surface(mesh_, quads_);
+    std::vector<char> moved(quads_.mesh.positions.size(), 0);
+    for (const Excess& e : excess) {
+      if (e.input_face == kNone) continue;
+      const auto& corners = mesh_.faces[e.input_face];
+      const Index v = nearest[corners[0]];
+      if (v == kNone || moved[v] != 0) continue;
+      const SurfacePoint foot{quads_.provenance.face[v], quads_.provenance.barycentric[v]};
+      if (points_.is_on_line(foot)) continue;
+      const ClosestPoint at =
+          closest_point_on_triangle(e.place, mesh_.positions[corners[0]],
+                                    mesh_.positions[corners[1]], mesh_.positions[corners[2]]);
+      quads_.provenance.face[v] = e.input_face;
+      quads_.provenance.barycentric[v] = at.barycentric;
+      quads_.mesh.positions[v] = e.place + mesh_.origin;
+      moved[v] = 1;
+    }
+  }
+
+  void divide(const ComparedSurfaces& surfaces, const std::vector<Target>& targets) {
+    positions_ = surfaces.positions();
+    normals_.assign(positions_.size(), Vec3::Zero());
+    for (Index f = 0; f < quads_.mesh.face_count(); ++f) {
+      const Vec3 normal = newell_normal(positions_, quads_.mesh.face(f));
+      for (const Index v : quads_.mesh.face(f)) normals_[v] += normal;
+    }
+    std::vector<char> chosen(static_cast<std::size_t>(quads_.mesh.face_count()), 0);
+    EdgeMarks marks;
+    for (const Target& target : targets) {
+      chosen[target.face] = 1;
+      const std::span<const Index> face = quads_.mesh.face(target.face);
+      for (const std::size_t i : edges_to_divide(surfaces, target)) {
+        const Index a = face[i];
+        const Index b = face[(i + 1) % face.size()];
+        if (marks.at(a, b) == kNone) marks.set(a, b, add_between(a, b, normals_[a] + normals_[b]));
+      }
+    }
+    const auto add_centre = [&](Index a, Index b, const std::vector<Index>& ring) {
+      return add_between(a, b, newell_normal(positions_, ring));
+    };
+    quads_.mesh = split_cells(quads_.mesh, chosen, marks, max_sides_, positions_, add_centre);
+    quads_.mesh.positions = positions_;
+    for (Vec3& p : quads_.mesh.positions) p += mesh_.origin;
+  }
+
+ private:
+  Index add(const SurfacePoint& point) {
+    positions_.push_back(place_of(mesh_, point));
+    normals_.push_back(Vec3::Zero());
+    quads_.provenance.face.push_back(point.face);
+    quads_.provenance.barycentric.push_back(point.barycentric);
+    quads_.provenance.lines.push_back({kNone, kNone});
+    return static_cast<Index>(positions_.size()) - 1;
+  }
+
+  Index add_between(Index a, Index b, const Vec3& normal) {
+    const auto point_of = [&](Index v) {
+      return SurfacePoint{quads_.provenance.face[v], quads_.provenance.barycentric[v]};
+    };
+    return add(
+        points_.between(point_of(a), point_of(b), 0.5 * (positions_[a] + positions_[b]), normal));
+  }
+
+  /// Which edges of a cell get a vertex, so that it is cut across the direction it is bent in.
+  [[nodiscard]] std::vector<std::size_t> edges_to_divide(const ComparedSurfaces& surfaces,
+                                                         const Target& target) const {
+    const std::span<const Index> face = quads_.mesh.face(target.face);
+    const std::size_t n = face.size();
+    if (n == 3) return {0, 1, 2};
+    const auto side = [&](std::size_t i) {
+      return Vec3(positions_[face[(i + 1) % n]] - positions_[face[i % n]]);
+    };
+    const Mat3 bend = cell_bend(surfaces, target.face);
+    // Whether to cut across direction a rather than across direction b.
+    const auto across_first = [&](const Vec3& a, const Vec3& b) {
+      const double height_a = std::abs(a.dot(bend * a)) / 4;
+      const double height_b = std::abs(b.dot(bend * b)) / 4;
+      if (std::max(height_a, height_b) < kExplains * target.distance) {
+        return a.squaredNorm() >= b.squaredNorm();
+      }
+      return height_a >= height_b;
+    };
+    if (n == 4) {
+      const Vec3 a = (side(0) - side(2)) / 2;
+      const Vec3 b = (side(1) - side(3)) / 2;
+      return across_first(a, b) ? std::vector<std::size_t>{0, 2} : std::vector<std::size_t>{1, 3};
+    }
+    if (n > 5) return {0, n / 2};
+    const std::size_t t = straightest_corner(face);
+    const Vec3 opposite = side(t + 2);
+    const Vec3 beside = (side(t + 1) - side(t + 3)) / 2;
+    if (across_first(opposite, beside)) return {(t + 2) % n};
+    return {(t + 1) % n, (t + 3) % n};
+  }
+
+  /// The corner of a face that turns least: of a pentagon the one at which a line ends.
+  [[nodiscard]] std::size_t straightest_corner(std::span<const Index> face) const {
+    const std::size_t n = face.size();
+    std::size_t best = 0;
+    double least = 2;
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vec3& p = positions_[face[i]];
+      const Vec3 ahead = positions_[face[(i + 1) % n]] - p;
+      const Vec3 back = positions_[face[(i + n - 1) % n]] - p;
+      const double cosine = ahead.normalized().dot(back.normalized());
+      if (cosine >= least) continue;
+      least = cosine;
+      best = i;
+    }
+    return best;
+  }
+
+  const TriMesh& mesh_;
+  QuadMesh quads_;
+  SurfacePoints points_;
+  std::size_t max_sides_;
+  std::vector<Vec3> positions_;  ///< [V] relative to the mesh's origin
+  std::vector<Vec3> normals_;    ///< [V] sums over the faces around
+};
+
+/// The cells to divide so that no place is beyond the tolerance any more.
+std::vector<Target> cells_beyond(const TriMesh& mesh, const QuadMesh& quads,
+                                 const std::vector<Excess>& excess, bool on_surface) {
+  std::vector<double> distance(static_cast<std::size_t>(quads.mesh.face_count()), 0);
+  const auto note = [&](Index cell, double d) { distance[cell] = std::max(distance[cell], d); };
+  std::vector<std::vector<Index>> cells_around(on_surface ? quads.mesh.positions.size() : 0);
+  std::vector<Index> nearest;
+  if (on_surface) {
+    nearest = nearest_on_surface(mesh, quads);
+    for (Index f = 0; f < quads.mesh.face_count(); ++f) {
+      for (const Index v : quads.mesh.face(f)) cells_around[v].push_back(f);
+    }
+  }
+  for (const Excess& e : excess) {
+    if (!on_surface || e.input_face == kNone) {
+      note(e.cell, e.distance);
+      continue;
+    }
+    for (const Index corner : mesh.faces[e.input_face]) {
+      if (nearest[corner] == kNone) continue;
+      for (const Index f : cells_around[nearest[corner]]) note(f, e.distance);
+    }
+  }
+  std::vector<Target> targets;
+  for (std::size_t f = 0; f < distance.size(); ++f) {
+    if (distance[f] > 0) targets.push_back({static_cast<Index>(f), distance[f]});
+  }
+  return targets;
+}
+
+/// The cells that are farthest off, as many as should give `vertices`.
+std::vector<Target> worst_cells(const ComparedSurfaces& surfaces, double vertices) {
+  const ErrorMap errors = measure_cells(surfaces);
+  std::vector<Target> targets;
+  for (std::size_t f = 0; f < errors.cells.size(); ++f) {
+    targets.push_back({static_cast<Index>(f), errors.cells[f].largest});
+  }
+  std::stable_sort(targets.begin(), targets.end(),
+                   [](const Target& a, const Target& b) { return a.distance > b.distance; });
+  const auto wanted = static_cast<std::size_t>(std::max(0.0, vertices / kVerticesPerCell));
+  targets.resize(std::min(targets.size(), wanted));
+  return targets;
+}
+
+/// The worst places, for a message. \param tolerance  model units
+std::string describe(std::vector<Excess> excess, const TriMesh& mesh, double tolerance) {
+  std::stable_sort(excess.begin(), excess.end(),
+                   [](const Excess& a, const Excess& b) { return a.distance > b.distance; });
+  std::string text;
+  std::vector<Vec3> named;
+  for (const Excess& e : excess) {
+    const auto is_near = [&](const Vec3& p) { return (p - e.place).norm() < tolerance; };
+    if (std::any_of(named.begin(), named.end(), is_near)) continue;
+    const Vec3 p = e.place + mesh.origin;
+    text += fmt::format("{}{:.3g} at ({:.6g}, {:.6g}, {:.6g})", named.empty() ? "" : ", ",
+                        e.distance, p.x(), p.y(), p.z());
+    named.push_back(e.place);
+    if (named.size() == kNamedPlaces) break;
+  }
+  return text;
+}
+
+/// Divides cells until all are within the tolerance. \return the rounds it took
+std::int64_t refine_to_tolerance(const TriMesh& mesh, Refinement& refinement,
+                                 const RefineOptions& options, Observer& observer, Report& report) {
+  const double wanted = options.tolerance->resolve(mesh.diagonal);
+  const double tolerance = (1 - kMargin) * wanted;
+  refinement.put_back(SurfaceDistance(mesh.positions, mesh.faces), tolerance);
+  for (std::int64_t round = 0;; ++round) {
+    observer.report("dividing cells", double(round) / double(options.rounds + 1));
+    const ComparedSurfaces surfaces(mesh, refinement.quads());
+    std::vector<Excess> excess = check_tolerance(surfaces, tolerance);
+    report.set("refine.places_beyond", excess.size());
+    if (excess.empty()) return round;
+    if (round == options.rounds) {
+      if (options.partly) return round;
+      throw ToleranceError(fmt::format(
+          "the result is farther than {:.6g} from the surface, after {} rounds of dividing cells: "
+          "{}; use a larger tolerance or more --refine-rounds",
+          wanted, round, describe(std::move(excess), mesh, tolerance)));
+    }
+    if (round >= kRoundsOfDividing && round % 2 == 0) {
+      refinement.reach(excess);
+    } else {
+      refinement.divide(surfaces,
+                        cells_beyond(mesh, refinement.quads(), excess, round >= kRoundsInSpace));
+    }
+  }
+}
+
+/// Divides the worst cells until there are enough vertices. \return the rounds it took
+std::int64_t refine_to_count(const TriMesh& mesh, Refinement& refinement,
+                             const RefineOptions& options, Observer& observer) {
+  std::int64_t round = 0;
+  for (; round < std::min(options.rounds, kRoundsOfCount); ++round) {
+    observer.report("dividing cells", double(round) / double(kRoundsOfCount));
+    const std::int64_t missing = *options.vertices - refinement.quads().mesh.vertex_count();
+    const ComparedSurfaces surfaces(mesh, refinement.quads());
+    const std::vector<Target> targets = worst_cells(surfaces, static_cast<double>(missing));
+    if (targets.empty()) break;
+    refinement.divide(surfaces, targets);
+  }
+  return round;
+}
+
+}  // namespace
+
+RefineResult refine_cells(const TriMesh& mesh, const QuadMesh& quads, const RefineOptions& options,
+                          Observer& observer) {
+  if (options.tolerance && options.vertices) {
+    throw UsageError("give only one of --refine-tolerance and --refine-vertices");
+  }
+  Refinement refinement(mesh, quads);
+  RefineResult result;
+  std::int64_t rounds = 0;
+  if (options.tolerance) {
+    rounds = refine_to_tolerance(mesh, refinement, options, observer, result.report);
+  } else if (options.vertices) {
+    rounds = refine_to_count(mesh, refinement, options, observer);
+  }
+  result.quads = refinement.quads();
+  result.report.set("refine.rounds", rounds);
+  result.report.set(
+      "refine.added_vertices",
+      static_cast<std::int64_t>(result.quads.mesh.vertex_count() - quads.mesh.vertex_count()));
+  return result;
+}
+
+}  // namespace strake

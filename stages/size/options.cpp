@@ -1,0 +1,22 @@
+#include "stages/size/size.h"
+
+namespace strake {
+
+OptionList SizeOptions::declare() {
+  return {
+      {.name = "size-tolerance",
+       .target = &tolerance,
+       .unit = "length",
+       .help = "Error to aim at; without it the mean error, so that errors become even.",
+       .min = 1e-6,
+       .max = 0.2},
+      {.name = "feedback",
+       .target = &feedback,
+       .unit = "",
+       .help = "Distances of lines change with this power of the error.",
+       .min = 0,
+       .max = 1},
+  };
+}
+
+}  // namespace strake

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "common/stage/console.h"
+#include "common/stage/stage.h"
+#include "strake/pipeline.h"
+
+namespace strake {
+
+/// The stages that are run again and again until a goal is met. Copies share option values.
+struct GoalStages {
+  Stage trace;
+  Stage mesh;
+  Stage fit;
+  Stage size;
+  Stage refine;
+};
+
+/// What is counted.
+enum class Counted { vertices, faces };
+
+/// Traces until the result has about the wanted count, with the errors of its cells made even.
+///
+/// In the first `feedback_rounds` rounds lines are traced again at distances that follow from the
+/// errors measured; then only the scale of all distances changes. Aims at a little less than the
+/// count, and spends the rest on dividing the cells that are farthest off.
+/// \return the port of the result
+std::string meet_count(Pipeline& pipeline, const GoalStages& stages, Counted counted,
+                       std::int64_t wanted, std::int64_t feedback_rounds, ConsoleObserver& console);
+
+/// Traces once, and divides cells until the result is within a tolerance of the surface, both ways.
+/// \param tolerance  as `Length::to_string` gives it
+/// \return the port of the result
+/// \throw ToleranceError naming places where that is not reached
+std::string meet_tolerance(Pipeline& pipeline, const GoalStages& stages,
+                           const std::string& tolerance);
+
+}  // namespace strake

@@ -1,0 +1,261 @@
+#include "stages/refine/refine.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "common/core/error.h"
+#include "common/geometry/cell_error/tolerance_check.h"
+#include "common/geometry/poly_topology/face_shape.h"
+#include "common/geometry/poly_topology/poly_topology.h"
+#include "common/geometry/samples/samples.h"
+#include "stages/refine/split_cells.h"
+#include "stages/refine/surface_points.h"
+#include "tests/support/chain.h"
+#include "tests/unit/refine/result_cases.h"
+
+namespace strake {
+namespace {
+
+using refine_test::bent_strip;
+using refine_test::Case;
+using refine_test::grid;
+
+RefineOptions within(double tolerance) {
+  RefineOptions options;
+  options.tolerance = Length{tolerance, false};
+  return options;
+}
+
+QuadMesh refined(const Case& c, const RefineOptions& options) {
+  SilentObserver observer;
+  return refine_cells(c.mesh, c.quads, options, observer).quads;
+}
+
+std::multiset<std::size_t> sides(const PolyMesh& mesh) {
+  std::multiset<std::size_t> result;
+  for (Index f = 0; f < mesh.face_count(); ++f) result.insert(mesh.face(f).size());
+  return result;
+}
+
+/// A grid of unit squares as faces, flat.
+PolyMesh squares(Index n) {
+  return grid(n, n, [](double, double) { return 0.0; }).quads.mesh;
+}
+
+/// Splits with marks in the middle of straight edges.
+PolyMesh split(PolyMesh mesh, const std::vector<std::array<Index, 2>>& edges,
+               std::vector<Index> chosen) {
+  std::vector<Vec3> positions = mesh.positions;
+  EdgeMarks marks;
+  for (const auto& [a, b] : edges) {
+    marks.set(a, b, static_cast<Index>(positions.size()));
+    positions.push_back((positions[a] + positions[b]) / 2);
+  }
+  std::vector<char> divide(static_cast<std::size_t>(mesh.face_count()), 0);
+  for (const Index f : chosen) divide[f] = 1;
+  return split_cells(mesh, divide, marks, 5, positions,
+                     [&](Index a, Index b, const std::vector<Index>&) {
+                       positions.push_back((positions[a] + positions[b]) / 2);
+                       return static_cast<Index>(positions.size()) - 1;
+                     });
+}
+
+double total_area(const PolyMesh& mesh) {
+  double sum = 0;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    sum += newell_normal(mesh.positions, mesh.face(f)).z() / 2;
+  }
+  return sum;
+}
+
+// Vertices of squares(3): 0..3 in the first row, 4..7 in the second, and so on; face 4 is the
+// middle one with the corners 5, 6, 10, 9.
+
+TEST(SplitCells, OppositeMarksMakeTwoQuadsAndGiveTheNeighboursACorner) {
+  const PolyMesh result = split(squares(3), {{5, 6}, {9, 10}}, {4});
+  EXPECT_EQ(sides(result), (std::multiset<std::size_t>{4, 4, 4, 4, 4, 4, 4, 4, 5, 5}));
+  EXPECT_TRUE(analyse(result).is_oriented_manifold());
+  EXPECT_NEAR(total_area(result), 1, 1e-12);
+}
+
+TEST(SplitCells, FourMarksMakeFourQuads) {
+  const PolyMesh result = split(squares(3), {{5, 6}, {9, 10}, {5, 9}, {6, 10}}, {4});
+  EXPECT_EQ(sides(result).count(4), 8U);
+  EXPECT_EQ(sides(result).count(5), 4U);
+  EXPECT_TRUE(analyse(result).is_oriented_manifold());
+}
+
+TEST(SplitCells, MarksSideBySideMakeThreeQuads) {
+  const PolyMesh result = split(squares(3), {{5, 6}, {6, 10}}, {4});
+  EXPECT_EQ(sides(result).count(4), 9U);
+  EXPECT_EQ(sides(result).count(5), 2U);
+}
+
+/// The pentagon where a line ends: going on to the opposite edge leaves two quads.
+TEST(SplitCells, ALineThatEndsInAPentagonGoesOn) {
+  const PolyMesh first = split(squares(3), {{5, 6}, {9, 10}}, {4});  // 7 is a pentagon now
+  Index pentagon = 0;
+  for (Index f = 0; f < first.face_count(); ++f) {
+    if (first.face(f).size() == 5 && newell_normal(first.positions, first.face(f)).z() > 0 &&
+        first.positions[first.face(f)[0]].y() >= 2.0 / 3 - 1e-9) {
+      pentagon = f;
+    }
+  }
+  const PolyMesh second = split(first, {{13, 14}}, {pentagon});
+  EXPECT_EQ(sides(second).count(5), 1U);
+  EXPECT_EQ(sides(second).count(4), 10U);
+}
+
+TEST(SplitCells, ConcaveNeighboursAreDivided) {
+  PolyMesh mesh = squares(3);
+  std::vector<Vec3> positions = mesh.positions;
+  EdgeMarks marks;
+  marks.set(5, 6, static_cast<Index>(positions.size()));
+  positions.push_back((positions[5] + positions[6]) / 2 + Vec3(0, -0.1, 0));  // into face 1
+  marks.set(9, 10, static_cast<Index>(positions.size()));
+  positions.push_back((positions[9] + positions[10]) / 2 + Vec3(0, 0.1, 0));  // into face 7
+  std::vector<char> divide(9, 0);
+  divide[4] = 1;
+  const PolyMesh result =
+      split_cells(mesh, divide, marks, 5, positions,
+                  [](Index, Index, const std::vector<Index>&) { return kNone; });
+  for (Index f = 0; f < result.face_count(); ++f) {
+    EXPECT_FALSE(is_concave_face(result.positions, result.face(f))) << f;
+  }
+  EXPECT_NEAR(total_area(result), 1, 1e-12);
+}
+
+/// A cell that bends one way is cut across that way: 2^n columns and one row. A column of width w
+/// is off by k w^2 / 8, so the tolerance decides n.
+TEST(Refine, CutsAcrossTheDirectionThatBends) {
+  const double k = 0.3;
+  const QuadMesh result = refined(bent_strip(k), within(1.05 * k / 8 / 16));
+  EXPECT_EQ(result.mesh.face_count(), 4);
+  EXPECT_EQ(result.mesh.vertex_count(), 10);
+  EXPECT_EQ(sides(result.mesh).count(4), 4U);
+}
+
+TEST(Refine, KeepsTheToleranceOnTerrain) {
+  const Case c = grid(32, 4, [](double x, double y) {
+    return 0.05 * std::sin(9 * x) * std::cos(7 * y) +
+           0.03 * std::exp(-200 * ((x - 0.4) * (x - 0.4) + (y - 0.6) * (y - 0.6)));
+  });
+  for (const double tolerance : {0.01, 0.002}) {
+    const QuadMesh result = refined(c, within(tolerance));
+    EXPECT_TRUE(check_tolerance(ComparedSurfaces(c.mesh, result), tolerance).empty());
+    EXPECT_TRUE(analyse(result.mesh).is_oriented_manifold());
+    EXPECT_EQ(analyse(result.mesh).euler, 1);  // still a disk
+    EXPECT_LE(*sides(result.mesh).rbegin(), 5U);
+  }
+}
+
+TEST(Refine, LeavesWhatIsWithinTheTolerance) {
+  const Case c = bent_strip(0.1);
+  const QuadMesh result = refined(c, within(0.1));
+  EXPECT_EQ(result.mesh.corners, c.quads.mesh.corners);
+  EXPECT_EQ(result.mesh.vertex_count(), c.quads.mesh.vertex_count());
+}
+
+/// Vertices may have been moved off the surface; those that are too far off come back.
+TEST(Refine, PutsVerticesBackOntoTheSurface) {
+  Case c = grid(8, 4, [](double, double) { return 0.0; });
+  c.quads.mesh.positions[12] += Vec3(0, 0, 0.1);  // in the middle
+  const QuadMesh result = refined(c, within(0.01));
+  EXPECT_NEAR(result.mesh.positions[12].z(), 0, 1e-12);
+  EXPECT_EQ(result.mesh.face_count(), 16);
+}
+
+TEST(Refine, SaysWhereTheToleranceIsNotReached) {
+  RefineOptions options = within(1e-3);
+  options.rounds = 0;
+  try {
+    refined(bent_strip(0.3), options);
+    ADD_FAILURE() << "no error";
+  } catch (const ToleranceError& error) {
+    EXPECT_EQ(error.code(), ExitCode::tolerance_missed);
+    EXPECT_NE(std::string(error.what()).find(" at (0.5"), std::string::npos) << error.what();
+  }
+  options.partly = true;
+  EXPECT_EQ(refined(bent_strip(0.3), options).mesh.face_count(), 1);
+}
+
+TEST(Refine, SpendsACountOnTheWorstCells) {
+  const Case c =
+      grid(64, 8, [](double x, double) { return x < 0.5 ? 0.0 : std::sin(12 * x) / 10; });
+  RefineOptions options;
+  options.vertices = 100;
+  const QuadMesh result = refined(c, options);
+  EXPECT_NEAR(result.mesh.vertex_count(), 100, 5);
+  for (Index v = 81; v < result.mesh.vertex_count(); ++v) {
+    EXPECT_GT(result.mesh.positions[v].x(), 0.49) << "the flat half needs nothing";
+  }
+}
+
+TEST(Refine, IsTheSameForAnyNumberOfThreads) {
+  const Case c = grid(32, 4, [](double x, double y) { return 0.1 * std::sin(9 * x + 5 * y * y); });
+  const QuadMesh many = refined(c, within(0.002));
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const QuadMesh single = refined(c, within(0.002));
+  EXPECT_EQ(many.mesh.corners, single.mesh.corners);
+  EXPECT_EQ(many.mesh.positions, single.mesh.positions);
+}
+
+/// New vertices on a sharp rim lie on the rim, in the middle of its arc, not of the chord.
+TEST(SurfacePoints, MiddlesOfRimsAreOnTheRim) {
+  SampleOptions sample;
+  sample.faces = 8000;
+  sample.jitter = 0.0;
+  SilentObserver observer;
+  const TriMesh mesh =
+      import_mesh(make_sample(SampleKind::cylinder, sample), ImportOptions{}, observer).mesh;
+  const SurfacePoints points(mesh);
+  Index start = 0;
+  while (mesh.is_feature[start] == 0) ++start;
+  const auto at_vertex = [](Index h) {
+    SurfacePoint point{TriMesh::face_of(h), {0, 0, 0}};
+    point.barycentric[h % 3] = 1;
+    return point;
+  };
+  // Some edges on along the rim, with a circle's chord between.
+  Index h = start;
+  for (int i = 0; i < 10; ++i) {
+    Index next = TriMesh::next(h);
+    while (mesh.is_feature[next] == 0) next = mesh.rotate_cw(next);
+    h = next;
+  }
+  const SurfacePoint a = at_vertex(start);
+  const SurfacePoint b = at_vertex(h);
+  const Vec3 chord = (place_of(mesh, a) + place_of(mesh, b)) / 2;
+  const SurfacePoint middle = points.between(a, b, chord, Vec3::UnitZ());
+  const Vec3 place = place_of(mesh, middle);
+  EXPECT_TRUE(points.is_on_line(middle));
+  EXPECT_NEAR(std::abs(place.z()), kCylinderHalfHeight, 1e-9);
+  // On the rim's polygon, between radius and its apothem; on the bisector of a and b.
+  EXPECT_GT(std::hypot(place.x(), place.y()), 0.995 * kCylinderRadius);
+  EXPECT_NEAR((place - place_of(mesh, a)).norm(), (place - place_of(mesh, b)).norm(), 0.01);
+}
+
+/// Across a deep valley the middle of the way lies at its bottom, where the point nearest to the
+/// chord lies on a bank.
+TEST(SurfacePoints, MiddlesStayOnTheWayOverTheSurface) {
+  const Case c =
+      grid(64, 1, [](double x, double) { return -2 * std::exp(-50 * (x - 0.5) * (x - 0.5)); });
+  const SurfacePoints points(c.mesh);
+  const auto foot = [&](Index v) {
+    return SurfacePoint{c.quads.provenance.face[v], c.quads.provenance.barycentric[v]};
+  };
+  const Vec3 chord = (c.quads.mesh.positions[0] + c.quads.mesh.positions[3]) / 2;
+  const Vec3 place = place_of(c.mesh, points.between(foot(1), foot(2), chord, Vec3::UnitZ()));
+  EXPECT_NEAR(place.z(), 0, 1e-2);  // vertices 1 and 2 are on the same far side: y goes from 0 to 1
+  const auto cut = middle_of_section(c.mesh, foot(0), foot(1), Vec3::UnitZ(), 10);
+  ASSERT_TRUE(cut.has_value());
+  EXPECT_NEAR(place_of(c.mesh, *cut).z(), -2, 0.01);
+  EXPECT_FALSE(middle_of_section(c.mesh, foot(0), foot(1), Vec3::UnitZ(), 2).has_value());
+}
+
+}  // namespace
+}  // namespace strake

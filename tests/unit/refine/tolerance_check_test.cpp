@@ -1,0 +1,104 @@
+#include "common/geometry/cell_error/tolerance_check.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "common/geometry/cell_error/cell_error.h"
+#include "tests/support/mesh_support.h"
+#include "tests/unit/refine/result_cases.h"
+
+namespace strake {
+namespace {
+
+using refine_test::bent_strip;
+using refine_test::Case;
+using refine_test::grid;
+
+bool is_within(const Case& c, double tolerance) {
+  return check_tolerance(ComparedSurfaces(c.mesh, c.quads), tolerance).empty();
+}
+
+/// A plane lifted by d is d away, everywhere and both ways.
+TEST(ToleranceCheck, FindsTheDistanceOfParallelPlanes) {
+  Case c = grid(8, 2, [](double, double) { return 0.0; });
+  for (Vec3& p : c.quads.mesh.positions) p.z() += 0.01;
+  EXPECT_TRUE(is_within(c, 0.01 * (1 + 1e-9)));
+  const ComparedSurfaces surfaces(c.mesh, c.quads);
+  const std::vector<Excess> excess = check_tolerance(surfaces, 0.01 * (1 - 1e-9));
+  // Every triangle of both surfaces.
+  EXPECT_EQ(excess.size(), surfaces.triangles().corners.size() + c.mesh.faces.size());
+  for (const Excess& e : excess) EXPECT_NEAR(e.distance, 0.01, 1e-12);
+}
+
+/// One vertex of the input sticks out by h, in the middle of a face of the result. Samples on a
+/// grid of any width but one can miss it; the check cannot.
+TEST(ToleranceCheck, FindsASpikeOfTheInput) {
+  const double h = 0.02;
+  const Case c = grid(16, 1, [&](double x, double y) { return x == 0.5 && y == 0.5 ? h : 0.0; });
+  EXPECT_TRUE(is_within(c, 1.001 * h));
+  const std::vector<Excess> excess = check_tolerance(ComparedSurfaces(c.mesh, c.quads), 0.999 * h);
+  ASSERT_FALSE(excess.empty());
+  for (const Excess& e : excess) {
+    EXPECT_NE(e.input_face, kNone);
+    EXPECT_NEAR(e.distance, h, 1e-12);
+    EXPECT_LT((e.place - Vec3(0.5, 0.5, h)).norm(), 1e-12);
+  }
+}
+
+/// On random terrain: where the check accepts, no sample is farther; where it refuses, the largest
+/// distance found among samples and places is as near to the tolerance as its smallest pieces are.
+TEST(ToleranceCheck, AgreesWithSamplesOnTerrain) {
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> height(0, 0.05);
+    const Case c = grid(12, 3, [&](double, double) { return height(random); });
+    const ComparedSurfaces surfaces(c.mesh, c.quads);
+    const double sampled = measure_cells(surfaces).largest;
+    EXPECT_FALSE(is_within(c, 0.999 * sampled));
+    // The distance changes by no more than one moves: kSmallestPiece of the tolerance.
+    double low = sampled;
+    double high = 0.06;
+    for (int i = 0; i < 20; ++i) {
+      const double middle = 0.5 * (low + high);
+      (is_within(c, middle) ? high : low) = middle;
+    }
+    for (const Excess& e : check_tolerance(surfaces, 0.99 * high)) {
+      EXPECT_GE(e.distance, 0.95 * high);
+    }
+  }
+}
+
+/// The same excesses for any number of threads, and when both surfaces are moved.
+TEST(ToleranceCheck, DependsOnNeitherPlaceNorScale) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> height(0, 0.05);
+  const Case c = grid(12, 3, [&](double, double) { return height(random); });
+  Case large = c;
+  for (Vec3& p : large.mesh.positions) p *= 1000;
+  for (Vec3& p : large.quads.mesh.positions) p *= 1000;
+  const auto a = check_tolerance(ComparedSurfaces(c.mesh, c.quads), 0.02);
+  const auto b = check_tolerance(ComparedSurfaces(large.mesh, large.quads), 20);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(a[i].cell, b[i].cell);
+}
+
+/// A strip bent along x by curvature k: heights k x^2 / 2 about its middle, none along y.
+TEST(CellError, FindsWhichWayTheSurfaceBends) {
+  const double k = 0.3;
+  const Case c = bent_strip(k);
+  const ComparedSurfaces surfaces(c.mesh, c.quads);
+  const ErrorMap errors = measure_cells(surfaces);
+  for (const CellError& cell : errors.cells) {
+    EXPECT_NEAR(std::abs(Vec3::UnitX().dot(cell.bend * Vec3::UnitX())), k / 2, 0.1 * k);
+    EXPECT_NEAR(Vec3::UnitY().dot(cell.bend * Vec3::UnitY()), 0, 0.02 * k);
+  }
+  // A chord of length 1 of a parabola of curvature k is off by k / 8, in the mean square by
+  // sqrt(8 / 15) of that.
+  EXPECT_NEAR(errors.largest, k / 8, 0.02 * k / 8);
+  EXPECT_NEAR(errors.rms, std::sqrt(8.0 / 15) * k / 8, 0.03 * k / 8);
+}
+
+}  // namespace
+}  // namespace strake

@@ -1,0 +1,199 @@
+#include "stages/size/size.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/artifact/meshfile/density_reader.h"
+#include "common/core/error.h"
+#include "common/geometry/samples/samples.h"
+#include "tests/support/chain.h"
+#include "tests/unit/refine/result_cases.h"
+
+namespace strake {
+namespace {
+
+using refine_test::Case;
+using refine_test::grid;
+
+constexpr double kUsed = 0.125;  // distance of the lines that the results below stand for
+
+PrincipalField flat_field(const TriMesh& mesh) {
+  const auto wedges = static_cast<std::size_t>(mesh.wedge_count());
+  PrincipalField field;
+  field.normal.assign(wedges, Vec3::UnitZ());
+  field.t_min.assign(wedges, Vec3::UnitX());
+  field.cross = field.t_min;
+  return field;
+}
+
+LineSet used_lines(const TriMesh& mesh) {
+  LineSet lines;
+  lines.spacing_along_min.assign(static_cast<std::size_t>(mesh.wedge_count()), kUsed);
+  lines.spacing_along_max = lines.spacing_along_min;
+  return lines;
+}
+
+SizeField sizes(const Case& c, const SizeOptions& options = {},
+                const DensityField* density = nullptr) {
+  SilentObserver observer;
+  return size_from_errors(c.mesh, flat_field(c.mesh), used_lines(c.mesh), c.quads, density, options,
+                          observer)
+      .size;
+}
+
+/// Mean factor on the distances of the vertices in a range of x.
+double mean_factor(const Case& c, const std::vector<double>& distance, double from, double to) {
+  double sum = 0;
+  double count = 0;
+  for (Index w = 0; w < c.mesh.wedge_count(); ++w) {
+    const double x = c.mesh.positions[c.mesh.wedge_vertex[w]].x();
+    if (x < from || x > to) continue;
+    sum += distance[w] / kUsed;
+    ++count;
+  }
+  return sum / count;
+}
+
+/// Bent along x only, more on the right.
+Case bent_more_on_the_right() {
+  return grid(64, 8, [](double x, double) {
+    const double amplitude = x < 0.5 ? 0.001 : 0.01;
+    return amplitude * std::cos(16 * M_PI * (x - 1.0 / 16));
+  });
+}
+
+TEST(Size, ShrinksWhereTheErrorIsAboveTheMeanAndGrowsWhereBelow) {
+  const Case c = bent_more_on_the_right();
+  const SizeField size = sizes(c);
+  const double left = mean_factor(c, size.along, 0, 0.3);
+  const double right = mean_factor(c, size.along, 0.7, 1);
+  EXPECT_LT(right, 0.8);
+  EXPECT_GT(left, right * 1.5);
+  for (std::size_t w = 0; w < size.along.size(); ++w) {
+    EXPECT_GT(size.along[w], 0.59 * kUsed);
+    EXPECT_LT(size.along[w], 1.26 * kUsed);
+  }
+}
+
+/// Lines across x are too far apart, lines along x are not.
+TEST(Size, ShrinksTheDirectionThatBends) {
+  const Case c = bent_more_on_the_right();
+  const SizeField size = sizes(c);
+  EXPECT_LT(mean_factor(c, size.along, 0.7, 1), 0.8 * mean_factor(c, size.across, 0.7, 1));
+}
+
+TEST(Size, ATighterToleranceShrinksMoreAndNoFeedbackChangesNothing) {
+  const Case c = bent_more_on_the_right();
+  SizeOptions options;
+  options.tolerance = Length{0.002, false};
+  const SizeField loose = sizes(c, options);
+  options.tolerance = Length{0.001, false};
+  const SizeField tight = sizes(c, options);
+  for (std::size_t w = 0; w < loose.along.size(); ++w) EXPECT_LE(tight.along[w], loose.along[w]);
+  EXPECT_LT(mean_factor(c, tight.along, 0, 1), mean_factor(c, loose.along, 0, 1));
+  options.feedback = 0;
+  for (const double d : sizes(c, options).along) EXPECT_DOUBLE_EQ(d, kUsed);
+}
+
+/// A surface that is the same seen from its other end gives distances that are.
+TEST(Size, IsSymmetricWhereTheSurfaceIs) {
+  const auto height = [](double x, double y) {
+    const double u = x - 0.5;
+    const double v = y - 0.5;
+    return 0.2 * std::cos(6 * u * v) + 0.1 * u * u;
+  };
+  const Case c = grid(32, 8, height);
+  const SizeField size = sizes(c);
+  // Half a turn about the middle maps vertex i to the last one minus i.
+  const auto last = static_cast<std::size_t>(c.mesh.vertex_count()) - 1;
+  std::vector<double> of_vertex(last + 1);
+  for (Index w = 0; w < c.mesh.wedge_count(); ++w) {
+    of_vertex[c.mesh.wedge_vertex[w]] = size.along[w];
+  }
+  // Vertices between two cells may belong to either: compare those that lie inside of one.
+  for (std::size_t v = 0; v <= last; ++v) {
+    const std::size_t column = v % 33;
+    const std::size_t row = v / 33;
+    if (column % 4 == 0 || row % 4 == 0) continue;
+    EXPECT_NEAR(of_vertex[v] / of_vertex[last - v], 1, 1e-6);
+  }
+}
+
+/// Where vertices are wanted more densely the same error counts for more.
+TEST(Size, ErrorsCountTimesTheDensity) {
+  const Case c = grid(64, 8, [](double x, double) { return 0.005 * std::cos(16 * M_PI * x); });
+  DensityField density;
+  for (const Vec3& p : c.mesh.positions) density.value.push_back(p.x() < 0.5 ? 1 : 4);
+  const SizeField size = sizes(c, {}, &density);
+  // The ratio of the errors is 4: 4^0.4.
+  EXPECT_NEAR(mean_factor(c, size.across, 0, 0.4) / mean_factor(c, size.across, 0.6, 1),
+              std::pow(4, 0.4), 0.35);
+}
+
+TEST(Density, TwiceAsManyVerticesWhereItIsDoubled) {
+  SampleOptions sample;
+  sample.faces = 20000;
+  const PolyMesh sphere = make_sample(SampleKind::sphere, sample);
+  const support::Prepared prepared = support::prepare(sphere);
+  DensityField density;
+  for (const Vec3& p : sphere.positions) density.value.push_back(p.z() > 0 ? 2 : 1);
+  TraceOptions options;
+  options.vertices = 2000;
+  SilentObserver observer;
+  const LineSet lines =
+      trace_lines(prepared.mesh, prepared.field, options, observer, {nullptr, &density}).lines;
+  const QuadMesh quads = support::mesh(prepared, lines);
+  double upper = 0;
+  double lower = 0;
+  for (const Vec3& p : quads.mesh.positions) (p.z() > 0 ? upper : lower) += 1;
+  EXPECT_NEAR(upper / lower, 2, 0.25);
+  EXPECT_NEAR(upper + lower, 2000, 300);
+}
+
+TEST(Density, OfAnotherMeshIsRefused) {
+  const support::Prepared prepared = support::prepare(make_sample(SampleKind::plane, {}));
+  const DensityField density{"", {1, 2, 3}};
+  SilentObserver observer;
+  EXPECT_THROW(
+      trace_lines(prepared.mesh, prepared.field, TraceOptions{}, observer, {nullptr, &density}),
+      PreconditionError);
+}
+
+std::string ply(const std::string& property, const std::string& rows) {
+  return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n" +
+         property +
+         "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n" +
+         rows + "3 0 1 2\n";
+}
+
+TEST(Density, IsReadFromPly) {
+  const std::vector<double> values =
+      parse_density(ply("property double density\n", "0 0 1.5 0\n1 0 0.25 0\n0 1 7 0\n"));
+  EXPECT_EQ(values, (std::vector<double>{1.5, 0.25, 7}));
+}
+
+TEST(Density, WhatCannotBeOneIsRefusedWithItsPlace) {
+  const auto message = [](const std::string& bytes) {
+    try {
+      parse_density(bytes);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string property = "property double density\n";
+  EXPECT_NE(message("solid x\n").find("no PLY file"), std::string::npos);
+  EXPECT_NE(message(ply("", "0 0 0\n1 0 0\n0 1 0\n")).find("no vertex property 'density'"),
+            std::string::npos);
+  for (const char* bad : {"0", "-1", "nan", "inf", "x"}) {
+    const std::string rows = std::string("0 0 1 0\n1 0 ") + bad + " 0\n0 1 1 0\n";
+    EXPECT_NE(message(ply(property, rows)).find("at vertex 1"), std::string::npos) << bad;
+  }
+  const std::string whole = ply(property, "0 0 1 0\n1 0 1 0\n0 1 1 0\n");
+  EXPECT_NE(message(whole.substr(0, whole.size() - 17)).find("ends before vertex 2"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace strake
