@@ -69,6 +69,11 @@ void search_scale(Pipeline& pipeline, const GoalStages& stages, Counted counted,
   option.parse_into(fmt::format("{}", search.best().scale));
 }
 
+/// Whether every face must stay a quad, so that cells cannot be divided one by one.
+bool only_quads(const GoalStages& stages) {
+  return stages.mesh.option("pure-quads").value() == "true";
+}
+
 /// Fits the refined result once more.
 void fit_refined(Pipeline& pipeline, const GoalStages& stages) {
   pipeline.provide_as("quads", pipeline.get<QuadMesh>("refined"), "refined");
@@ -80,8 +85,9 @@ void fit_refined(Pipeline& pipeline, const GoalStages& stages) {
 std::string meet_count(Pipeline& pipeline, const GoalStages& stages, Counted counted,
                        std::int64_t wanted, std::int64_t feedback_rounds,
                        ConsoleObserver& console) {
+  const double reserve = only_quads(stages) ? 0 : kReserve;
   const auto aim =
-      static_cast<std::int64_t>(std::ceil((1 - kReserve) * static_cast<double>(wanted)));
+      static_cast<std::int64_t>(std::ceil((1 - reserve) * static_cast<double>(wanted)));
   stages.trace.option(name_of(counted)).parse_into(std::to_string(std::max<std::int64_t>(aim, 4)));
   for (std::int64_t round = 0; round < feedback_rounds; ++round) {
     trace_and_mesh(pipeline, stages);
@@ -92,7 +98,7 @@ std::string meet_count(Pipeline& pipeline, const GoalStages& stages, Counted cou
   pipeline.keep(stages.mesh);
   pipeline.run(stages.fit);
   const std::int64_t missing = wanted - count_of(pipeline, "fitted", counted);
-  if (missing > 0) {
+  if (missing > 0 && !only_quads(stages)) {
     const std::int64_t vertices = count_of(pipeline, "fitted", Counted::vertices) + missing;
     stages.refine.option("refine-vertices").parse_into(std::to_string(vertices));
     pipeline.run(stages.refine);
@@ -113,13 +119,19 @@ std::string meet_count(Pipeline& pipeline, const GoalStages& stages, Counted cou
 }
 
 std::string meet_tolerance(Pipeline& pipeline, const GoalStages& stages,
-                           const std::string& tolerance) {
+                           const std::string& tolerance, ConsoleObserver& console) {
   trace_and_mesh(pipeline, stages);
   pipeline.keep(stages.trace);
   pipeline.keep(stages.mesh);
   pipeline.run(stages.fit);
   pipeline.keep(stages.fit);
   stages.refine.option("refine-tolerance").parse_into(tolerance);
+  if (only_quads(stages)) {
+    console.say(
+        "warning: with --pure-quads cells are not divided: the tolerance steers the spacing of "
+        "lines, and may be exceeded");
+    return "fitted";
+  }
   const Option& rounds = stages.refine.option("refine-rounds");
   const Option& partly = stages.refine.option("refine-partly");
   const std::string all_rounds = rounds.value();

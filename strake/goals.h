@@ -35,6 +35,6 @@ std::string meet_count(Pipeline& pipeline, const GoalStages& stages, Counted cou
 /// \return the port of the result
 /// \throw ToleranceError naming places where that is not reached
 std::string meet_tolerance(Pipeline& pipeline, const GoalStages& stages,
-                           const std::string& tolerance);
+                           const std::string& tolerance, ConsoleObserver& console);
 
 }  // namespace strake

@@ -32,7 +32,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kDefaultTolerance = "0.1%";
-constexpr std::int64_t kFeedbackRounds = 2;
+constexpr std::int64_t kFeedbackRounds = 1;
 
 /// Everything `strake remesh` was asked for.
 struct RemeshCommand {
@@ -135,7 +135,8 @@ std::string RemeshCommand::reach_goal(Pipeline& pipeline, ConsoleObserver& conso
     return meet_count(pipeline, stages, counted, std::stoll(wanted), feedback_rounds, console);
   }
   const std::string tolerance = trace.option("tolerance").value();
-  return meet_tolerance(pipeline, stages, tolerance.empty() ? kDefaultTolerance : tolerance);
+  return meet_tolerance(pipeline, stages, tolerance.empty() ? kDefaultTolerance : tolerance,
+                        console);
 }
 
 void RemeshCommand::run() {

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -29,7 +30,7 @@ constexpr std::size_t kNamedPlaces = 5;
 /// Rounds in which the cell nearest to a place of the input is divided. What is left after that is
 /// mostly nearest to a cell that does not lie over it.
 constexpr std::int64_t kRoundsInSpace = 3;
-/// Rounds after which, in turn with dividing, vertices are moved to the places that are left.
+/// Rounds after which vertices are moved to the places that are left, where dividing did not help.
 constexpr std::int64_t kRoundsOfDividing = 6;
 /// Rounds in which the worst cells are divided up to a count.
 constexpr std::int64_t kRoundsOfCount = 4;
@@ -254,6 +255,7 @@ std::int64_t refine_to_tolerance(const TriMesh& mesh, Refinement& refinement,
   const double wanted = options.tolerance->resolve(mesh.diagonal);
   const double tolerance = (1 - kMargin) * wanted;
   refinement.put_back(SurfaceDistance(mesh.positions, mesh.faces), tolerance);
+  std::size_t last = std::numeric_limits<std::size_t>::max();  // places before the last division
   for (std::int64_t round = 0;; ++round) {
     observer.report("dividing cells", double(round) / double(options.rounds + 1));
     const ComparedSurfaces surfaces(mesh, refinement.quads());
@@ -267,9 +269,11 @@ std::int64_t refine_to_tolerance(const TriMesh& mesh, Refinement& refinement,
           "{}; use a larger tolerance or more --refine-rounds",
           wanted, round, describe(std::move(excess), mesh, tolerance)));
     }
-    if (round >= kRoundsOfDividing && round % 2 == 0) {
+    if (round >= kRoundsOfDividing && excess.size() >= last) {
       refinement.reach(excess);
+      last = std::numeric_limits<std::size_t>::max();
     } else {
+      last = excess.size();
       refinement.divide(surfaces,
                         cells_beyond(mesh, refinement.quads(), excess, round >= kRoundsInSpace));
     }

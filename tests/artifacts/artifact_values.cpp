@@ -140,6 +140,10 @@ bool same(const TensorPart& a, const TensorPart& b) {
          same(a.normal, b.normal);
 }
 
+bool same(const SizeField& a, const SizeField& b) {
+  return a.mesh_id == b.mesh_id && same(a.along, b.along) && same(a.across, b.across);
+}
+
 bool same(const PrincipalField& a, const PrincipalField& b) {
   return a.mesh_id == b.mesh_id && same(a.normal, b.normal) && same(a.t_min, b.t_min) &&
          same(a.k_min, b.k_min) && same(a.k_max, b.k_max) && same(a.cross, b.cross) &&
@@ -189,6 +193,9 @@ Values make_values() {
   values.lines = make_lines(values.mesh, numbers);
   values.quads = make_quads(values.mesh, numbers);
   values.part = make_part(values.mesh, numbers);
+  values.size = {values.mesh.id, values.lines.spacing_along_max, values.lines.spacing_along_min};
+  for (double& d : values.size.along) d += 5e-324;  // never zero
+  for (double& d : values.size.across) d += 5e-324;
   return values;
 }
 
@@ -222,6 +229,9 @@ void write(const fs::path& path, ArtifactKind kind, const Values& values,
     case ArtifactKind::tensor_part:
       write_artifact(path, values.part, provenance);
       break;
+    case ArtifactKind::size:
+      write_artifact(path, values.size, values.mesh, provenance);
+      break;
   }
 }
 
@@ -239,6 +249,8 @@ bool reads_equal(const fs::path& path, ArtifactKind kind, const Values& values) 
       return same(read_quad_mesh(path), values.quads);
     case ArtifactKind::tensor_part:
       return same(read_tensor_part(path), values.part);
+    case ArtifactKind::size:
+      return same(read_size_field(path), values.size);
   }
   return false;
 }

@@ -17,6 +17,7 @@ struct Values {
   LineSet lines;
   QuadMesh quads;
   TensorPart part;
+  SizeField size;
 };
 
 /// Values with numbers that do not survive a detour over text or single precision.
@@ -44,7 +45,8 @@ class FolderTest : public testing::TestWithParam<ArtifactKind> {
 
 inline const auto kAllKinds =
     testing::Values(ArtifactKind::mesh, ArtifactKind::tensor, ArtifactKind::field,
-                    ArtifactKind::lines, ArtifactKind::quads, ArtifactKind::tensor_part);
+                    ArtifactKind::lines, ArtifactKind::quads, ArtifactKind::tensor_part,
+                    ArtifactKind::size);
 inline const auto kKindNames = [](const testing::TestParamInfo<ArtifactKind>& info) {
   return kind_name(info.param);
 };

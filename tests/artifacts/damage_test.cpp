@@ -99,7 +99,7 @@ TEST_P(Damage, OtherKindsAreRefusedByName) {
   write(file("a.hdf"), GetParam(), values, make_provenance());
   for (const ArtifactKind other :
        {ArtifactKind::mesh, ArtifactKind::tensor, ArtifactKind::field, ArtifactKind::lines,
-        ArtifactKind::quads, ArtifactKind::tensor_part}) {
+        ArtifactKind::quads, ArtifactKind::tensor_part, ArtifactKind::size}) {
     if (other == GetParam()) continue;
     const std::string message = refusal(other, values);
     EXPECT_NE(message.find(kind_name(GetParam())), std::string::npos) << message;
@@ -160,6 +160,9 @@ TEST_F(Damage, IndicesOutOfRangeAndNumbersThatAreNoneAreRefused) {
   refuses(ArtifactKind::tensor_part, "/tensor_part/wedge", 3, H5T_NATIVE_INT32, 1);
   refuses(ArtifactKind::tensor_part, "/tensor_part/position", 2, H5T_NATIVE_DOUBLE, nan);
   refuses(ArtifactKind::tensor_part, "/tensor_part/normal", 2, H5T_NATIVE_DOUBLE, nan);
+  refuses(ArtifactKind::size, "/size/along", 2, H5T_NATIVE_DOUBLE, nan);
+  refuses(ArtifactKind::size, "/size/across", 2, H5T_NATIVE_DOUBLE, 0.0);
+  refuses(ArtifactKind::size, "/size/across", 3, H5T_NATIVE_DOUBLE, -1.0);
 }
 
 TEST_F(Damage, BlocksOfADamagedMeshAreRefused) {

@@ -185,7 +185,7 @@ TEST(Refine, SaysWhereTheToleranceIsNotReached) {
 
 TEST(Refine, SpendsACountOnTheWorstCells) {
   const Case c =
-      grid(64, 8, [](double x, double) { return x < 0.5 ? 0.0 : std::sin(12 * x) / 10; });
+      grid(64, 8, [](double x, double) { return x < 0.5 ? 0.0 : std::sin(12 * (x - 0.5)) / 10; });
   RefineOptions options;
   options.vertices = 100;
   const QuadMesh result = refined(c, options);
@@ -243,18 +243,22 @@ TEST(SurfacePoints, MiddlesOfRimsAreOnTheRim) {
 /// chord lies on a bank.
 TEST(SurfacePoints, MiddlesStayOnTheWayOverTheSurface) {
   const Case c =
-      grid(64, 1, [](double x, double) { return -2 * std::exp(-50 * (x - 0.5) * (x - 0.5)); });
+      grid(64, 2, [](double x, double) { return -2 * std::exp(-50 * (x - 0.5) * (x - 0.5)); });
   const SurfacePoints points(c.mesh);
   const auto foot = [&](Index v) {
     return SurfacePoint{c.quads.provenance.face[v], c.quads.provenance.barycentric[v]};
   };
-  const Vec3 chord = (c.quads.mesh.positions[0] + c.quads.mesh.positions[3]) / 2;
-  const Vec3 place = place_of(c.mesh, points.between(foot(1), foot(2), chord, Vec3::UnitZ()));
-  EXPECT_NEAR(place.z(), 0, 1e-2);  // vertices 1 and 2 are on the same far side: y goes from 0 to 1
-  const auto cut = middle_of_section(c.mesh, foot(0), foot(1), Vec3::UnitZ(), 10);
-  ASSERT_TRUE(cut.has_value());
-  EXPECT_NEAR(place_of(c.mesh, *cut).z(), -2, 0.01);
-  EXPECT_FALSE(middle_of_section(c.mesh, foot(0), foot(1), Vec3::UnitZ(), 2).has_value());
+  // Vertices 3 and 5 are at y = 0.5, on the two banks; the way between is about 4.1 long.
+  const auto middle = middle_of_section(c.mesh, foot(3), foot(5), Vec3::UnitZ(), 10);
+  ASSERT_TRUE(middle.has_value());
+  EXPECT_NEAR(place_of(c.mesh, *middle).z(), -2, 0.01);
+  EXPECT_NEAR(place_of(c.mesh, *middle).x(), 0.5, 0.01);
+  EXPECT_FALSE(middle_of_section(c.mesh, foot(3), foot(5), Vec3::UnitZ(), 4).has_value());
+  // On one bank, between vertices 5 and 8, it is the middle of the edge.
+  const Vec3 chord = (c.quads.mesh.positions[5] + c.quads.mesh.positions[8]) / 2;
+  EXPECT_NEAR(
+      (place_of(c.mesh, points.between(foot(5), foot(8), chord, Vec3::UnitZ())) - chord).norm(), 0,
+      1e-9);
 }
 
 }  // namespace

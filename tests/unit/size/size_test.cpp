@@ -111,12 +111,13 @@ TEST(Size, IsSymmetricWhereTheSurfaceIs) {
   for (Index w = 0; w < c.mesh.wedge_count(); ++w) {
     of_vertex[c.mesh.wedge_vertex[w]] = size.along[w];
   }
-  // Vertices between two cells may belong to either: compare those that lie inside of one.
+  // Vertices between two cells may belong to either: compare those that lie inside of one. Samples
+  // between two cells may too, which changes what is measured a little.
   for (std::size_t v = 0; v <= last; ++v) {
     const std::size_t column = v % 33;
     const std::size_t row = v / 33;
     if (column % 4 == 0 || row % 4 == 0) continue;
-    EXPECT_NEAR(of_vertex[v] / of_vertex[last - v], 1, 1e-6);
+    EXPECT_NEAR(of_vertex[v] / of_vertex[last - v], 1, 0.01);
   }
 }
 
@@ -127,11 +128,12 @@ TEST(Size, ErrorsCountTimesTheDensity) {
   for (const Vec3& p : c.mesh.positions) density.value.push_back(p.x() < 0.5 ? 1 : 4);
   const SizeField size = sizes(c, {}, &density);
   // The ratio of the errors is 4: 4^0.4.
-  EXPECT_NEAR(mean_factor(c, size.across, 0, 0.4) / mean_factor(c, size.across, 0.6, 1),
-              std::pow(4, 0.4), 0.35);
+  EXPECT_NEAR(mean_factor(c, size.along, 0, 0.4) / mean_factor(c, size.along, 0.6, 1),
+              std::pow(4, 0.4), 0.1);
 }
 
-TEST(Density, TwiceAsManyVerticesWhereItIsDoubled) {
+/// Distances between lines, not counts: lines go on where their neighbours are nearer than wanted.
+TEST(Density, DistancesShrinkWithItsRoot) {
   SampleOptions sample;
   sample.faces = 20000;
   const PolyMesh sphere = make_sample(SampleKind::sphere, sample);
@@ -139,16 +141,21 @@ TEST(Density, TwiceAsManyVerticesWhereItIsDoubled) {
   DensityField density;
   for (const Vec3& p : sphere.positions) density.value.push_back(p.z() > 0 ? 2 : 1);
   TraceOptions options;
-  options.vertices = 2000;
+  options.tolerance = percent(0.1);
   SilentObserver observer;
   const LineSet lines =
       trace_lines(prepared.mesh, prepared.field, options, observer, {nullptr, &density}).lines;
-  const QuadMesh quads = support::mesh(prepared, lines);
   double upper = 0;
   double lower = 0;
-  for (const Vec3& p : quads.mesh.positions) (p.z() > 0 ? upper : lower) += 1;
-  EXPECT_NEAR(upper / lower, 2, 0.25);
-  EXPECT_NEAR(upper + lower, 2000, 300);
+  double upper_count = 0;
+  double lower_count = 0;
+  for (Index w = 0; w < prepared.mesh.wedge_count(); ++w) {
+    const double z = prepared.mesh.positions[prepared.mesh.wedge_vertex[w]].z();
+    if (std::abs(z) < 0.5) continue;  // distances are graded between the halves
+    (z > 0 ? upper : lower) += lines.spacing_along_min[w];
+    (z > 0 ? upper_count : lower_count) += 1;
+  }
+  EXPECT_NEAR((lower / lower_count) / (upper / upper_count), std::sqrt(2), 0.03);
 }
 
 TEST(Density, OfAnotherMeshIsRefused) {
