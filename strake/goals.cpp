@@ -118,19 +118,23 @@ std::string meet_count(Pipeline& pipeline, const GoalStages& stages, Counted cou
   return "fitted";
 }
 
+std::string follow_spacing(Pipeline& pipeline, const GoalStages& stages) {
+  for (const Stage* stage : {&stages.trace, &stages.mesh, &stages.fit}) {
+    pipeline.run(*stage);
+    pipeline.keep(*stage);
+  }
+  return "fitted";
+}
+
 std::string meet_tolerance(Pipeline& pipeline, const GoalStages& stages,
                            const std::string& tolerance, ConsoleObserver& console) {
-  trace_and_mesh(pipeline, stages);
-  pipeline.keep(stages.trace);
-  pipeline.keep(stages.mesh);
-  pipeline.run(stages.fit);
-  pipeline.keep(stages.fit);
+  const std::string fitted = follow_spacing(pipeline, stages);
   stages.refine.option("refine-tolerance").parse_into(tolerance);
   if (only_quads(stages)) {
     console.say(
         "warning: with --pure-quads cells are not divided: the tolerance steers the spacing of "
         "lines, and may be exceeded");
-    return "fitted";
+    return fitted;
   }
   const Option& rounds = stages.refine.option("refine-rounds");
   const Option& partly = stages.refine.option("refine-partly");

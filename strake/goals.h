@@ -30,6 +30,10 @@ enum class Counted { vertices, faces };
 std::string meet_count(Pipeline& pipeline, const GoalStages& stages, Counted counted,
                        std::int64_t wanted, std::int64_t feedback_rounds, ConsoleObserver& console);
 
+/// Traces once, at the distances that the options of tracing ask for. \return the port of the
+/// result
+std::string follow_spacing(Pipeline& pipeline, const GoalStages& stages);
+
 /// Traces once, and divides cells until the result is within a tolerance of the surface, both ways.
 /// \param tolerance  as `Length::to_string` gives it
 /// \return the port of the result

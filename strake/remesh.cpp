@@ -31,7 +31,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kDefaultTolerance = "0.1%";
 constexpr std::int64_t kFeedbackRounds = 1;
 
 /// Everything `strake remesh` was asked for.
@@ -135,8 +134,8 @@ std::string RemeshCommand::reach_goal(Pipeline& pipeline, ConsoleObserver& conso
     return meet_count(pipeline, stages, counted, std::stoll(wanted), feedback_rounds, console);
   }
   const std::string tolerance = trace.option("tolerance").value();
-  return meet_tolerance(pipeline, stages, tolerance.empty() ? kDefaultTolerance : tolerance,
-                        console);
+  if (tolerance.empty()) return follow_spacing(pipeline, stages);
+  return meet_tolerance(pipeline, stages, tolerance, console);
 }
 
 void RemeshCommand::run() {

@@ -43,10 +43,9 @@ class FolderTest : public testing::TestWithParam<ArtifactKind> {
   std::filesystem::path folder_;
 };
 
-inline const auto kAllKinds =
-    testing::Values(ArtifactKind::mesh, ArtifactKind::tensor, ArtifactKind::field,
-                    ArtifactKind::lines, ArtifactKind::quads, ArtifactKind::tensor_part,
-                    ArtifactKind::size);
+inline const auto kAllKinds = testing::Values(
+    ArtifactKind::mesh, ArtifactKind::tensor, ArtifactKind::field, ArtifactKind::lines,
+    ArtifactKind::quads, ArtifactKind::tensor_part, ArtifactKind::size);
 inline const auto kKindNames = [](const testing::TestParamInfo<ArtifactKind>& info) {
   return kind_name(info.param);
 };

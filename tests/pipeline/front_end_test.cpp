@@ -110,14 +110,13 @@ TEST_F(FrontEnd, LogsAsOneJsonObjectALine) {
     EXPECT_LE(event.at("fraction"), 1.0);
   }
   EXPECT_EQ(labels, (std::set<std::string>{"strake", "import", "tensor", "smooth", "trace", "mesh",
-                                           "fit", "refine", "evaluate"}));
+                                           "fit", "evaluate"}));
 }
 
 TEST_F(FrontEnd, ReportHoldsEveryStage) {
   must("strake remesh torus.ply -o out.obj -q --report report.json");
   const std::string report = bytes("report.json");
-  for (const char* stage :
-       {"import", "tensor", "smooth", "trace", "mesh", "fit", "refine", "evaluate"}) {
+  for (const char* stage : {"import", "tensor", "smooth", "trace", "mesh", "fit", "evaluate"}) {
     EXPECT_NE(report.find("\"stage\": \"" + std::string(stage) + "\""), std::string::npos) << stage;
   }
 }
