@@ -90,8 +90,8 @@ TEST_P(Damage, FlippedBitsNeverChangeWhatIsRead) {
       ++refused;
     }
   }
-  // Most of a file is data under checksums.
-  EXPECT_GT(refused, kFlips / 2);
+  // Most of a file is data under checksums; of sizes, most is the surface that only viewers read.
+  EXPECT_GT(refused, GetParam() == ArtifactKind::size ? kFlips / 10 : kFlips / 2);
 }
 
 TEST_P(Damage, OtherKindsAreRefusedByName) {
