@@ -190,8 +190,10 @@ std::vector<Rule> in_order(std::vector<Rule> rules) {
 
 std::vector<Rule> standard_rules(const Place& place) {
   std::vector<Rule> rules;
+  // Without rounds of tracing, which a file must write out, and what needs a goal.
+  const std::set<std::string> others = {"sample", "export", "size", "refine"};
   for (const std::string& name : stage_names()) {
-    if (name != "sample" && name != "export") rules.push_back(usual_rule(name, name, place));
+    if (others.count(name) == 0) rules.push_back(usual_rule(name, name, place));
   }
   return rules;
 }
