@@ -14,8 +14,8 @@ namespace strake {
 struct ImportOptions {
   double feature_angle_deg = 40;  ///< edges bent by more than this are feature edges; 180: none
   std::string attribute_features = "seams";  ///< borders that are features: labels, seams, none
-  bool no_attributes = false;              ///< leave out colours, texture coordinates and labels
-  bool strict = false;                     ///< refuse what would have to be repaired
+  bool no_attributes = false;                ///< leave out colours, texture coordinates and labels
+  bool strict = false;                       ///< refuse what would have to be repaired
 
   OptionList declare();
 };
