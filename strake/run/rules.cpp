@@ -195,6 +195,7 @@ std::vector<Rule> standard_rules(const Place& place) {
   for (const std::string& name : stage_names()) {
     if (others.count(name) == 0) rules.push_back(usual_rule(name, name, place));
   }
+  check_wires(rules);  // drops what is only there in rounds
   return rules;
 }
 
