@@ -14,8 +14,9 @@ namespace {
 
 /// Error of a wanted count above which the user is told.
 constexpr double kCountTolerance = 0.05;
-/// Share of a wanted count that is kept for dividing cells.
-constexpr double kReserve = 0.02;
+/// Share of a wanted count that may be missing; more is made up for by dividing cells, which costs
+/// quads.
+constexpr double kMissing = 0.02;
 /// Times that cells are divided and vertices fitted again on the way to a tolerance. Fitting makes
 /// many cells good enough that would be divided without.
 constexpr int kFittedRefinements = 2;
@@ -60,8 +61,7 @@ void search_scale(Pipeline& pipeline, const GoalStages& stages, Counted counted,
       break;
     }
     const std::int64_t count = count_of(pipeline, "quads", counted);
-    console.say(
-        fmt::format("{} {}, {} wanted before cells are divided", count, name_of(counted), aim));
+    console.say(fmt::format("{} {}, {} wanted", count, name_of(counted), aim));
     search.record(*scale, count);
     if (search.best().scale == *scale) best = pipeline;
   }
@@ -85,20 +85,17 @@ void fit_refined(Pipeline& pipeline, const GoalStages& stages) {
 std::string meet_count(Pipeline& pipeline, const GoalStages& stages, Counted counted,
                        std::int64_t wanted, std::int64_t feedback_rounds,
                        ConsoleObserver& console) {
-  const double reserve = only_quads(stages) ? 0 : kReserve;
-  const auto aim =
-      static_cast<std::int64_t>(std::ceil((1 - reserve) * static_cast<double>(wanted)));
-  stages.trace.option(name_of(counted)).parse_into(std::to_string(std::max<std::int64_t>(aim, 4)));
   for (std::int64_t round = 0; round < feedback_rounds; ++round) {
     trace_and_mesh(pipeline, stages);
-    feed_back(pipeline, stages, counted, aim);
+    feed_back(pipeline, stages, counted, wanted);
   }
-  search_scale(pipeline, stages, counted, aim, console);
+  search_scale(pipeline, stages, counted, wanted, console);
   pipeline.keep(stages.trace);
   pipeline.keep(stages.mesh);
   pipeline.run(stages.fit);
   const std::int64_t missing = wanted - count_of(pipeline, "fitted", counted);
-  if (missing > 0 && !only_quads(stages)) {
+  if (static_cast<double>(missing) > kMissing * static_cast<double>(wanted) &&
+      !only_quads(stages)) {
     const std::int64_t vertices = count_of(pipeline, "fitted", Counted::vertices) + missing;
     stages.refine.option("refine-vertices").parse_into(std::to_string(vertices));
     pipeline.run(stages.refine);
@@ -106,7 +103,6 @@ std::string meet_count(Pipeline& pipeline, const GoalStages& stages, Counted cou
     fit_refined(pipeline, stages);
   }
   pipeline.keep(stages.fit);
-  stages.trace.option(name_of(counted)).parse_into(std::to_string(wanted));
   const std::int64_t reached = count_of(pipeline, "fitted", counted);
   const double off = std::abs(static_cast<double>(reached - wanted)) / static_cast<double>(wanted);
   if (off > kCountTolerance) {

@@ -24,8 +24,8 @@ enum class Counted { vertices, faces };
 /// Traces until the result has about the wanted count, with the errors of its cells made even.
 ///
 /// In the first `feedback_rounds` rounds lines are traced again at distances that follow from the
-/// errors measured; then only the scale of all distances changes. Aims at a little less than the
-/// count, and spends the rest on dividing the cells that are farthest off.
+/// errors measured; then only the scale of all distances changes. Where more than 2 % of the count
+/// are missing in the end the cells that are farthest off are divided.
 /// \return the port of the result
 std::string meet_count(Pipeline& pipeline, const GoalStages& stages, Counted counted,
                        std::int64_t wanted, std::int64_t feedback_rounds, ConsoleObserver& console);
