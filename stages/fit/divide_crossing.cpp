@@ -18,6 +18,11 @@ namespace strake::fitting {
 namespace {
 
 constexpr double kLeastAngle = 5 * std::numbers::pi / 180;
+/// What passes through more faces does so however it is divided: sheets on top of each other.
+constexpr int kMostCrossings = 8;
+/// Distance from a plane, as a share of its size, up to which a face covers the same points however
+/// it is divided.
+constexpr double kFlat = 1e-9;
 
 using Polygon = std::vector<Index>;
 using Parts = std::array<Polygon, 2>;
@@ -33,9 +38,15 @@ class Division {
 
   Index run() {
     Index divided = 0;
-    for (const auto& pair : find_crossing_faces(mesh_.positions, triangles_)) {
+    std::vector<int> crossed(parts_.size(), 0);
+    const auto pairs = find_crossing_faces(mesh_.positions, triangles_);
+    for (const auto& pair : pairs) {
+      for (const Index f : pair) ++crossed[f];
+    }
+    for (const auto& pair : pairs) {
       for (const Index f : pair) {
-        if (!parts_[f].has_value() && divide(f)) ++divided;
+        if (parts_[f].has_value() || crossed[f] > kMostCrossings || is_flat(f)) continue;
+        if (divide(f)) ++divided;
       }
     }
     if (divided > 0) write();
@@ -103,6 +114,19 @@ class Division {
       if (std::atan2(ahead.cross(back).norm(), ahead.dot(back)) < kLeastAngle) return false;
     }
     return true;
+  }
+
+  [[nodiscard]] bool is_flat(Index f) const {
+    const std::span<const Index> face = mesh_.face(f);
+    const std::vector<Vec3>& p = mesh_.positions;
+    const Vec3 normal = newell_normal(p, face).normalized();
+    double longest = 0;
+    double farthest = 0;
+    for (const Index v : face) {
+      longest = std::max(longest, (p[v] - p[face[0]]).norm());
+      farthest = std::max(farthest, std::abs((p[v] - p[face[0]]).dot(normal)));
+    }
+    return farthest <= kFlat * longest;
   }
 
   /// Divides a face where that lessens its crossings.

@@ -14,17 +14,24 @@ constexpr double kSmallAngle = 20 * std::numbers::pi / 180;
 /// Angles that differ by less are equal: rounding.
 constexpr double kSameAngle = 1e-9;
 
-}  // namespace
-
 std::vector<std::array<Index, 2>> crossing_pairs(const PolyMesh& mesh,
-                                                 const std::vector<Vec3>& positions) {
+                                                 const std::vector<Vec3>& positions,
+                                                 const std::vector<std::uint8_t>& wanted) {
   FaceTriangles triangles;
   for (Index f = 0; f < mesh.face_count(); ++f) {
     triangulate_face(positions, mesh.face(f), triangles.corners);
     triangles.face.resize(triangles.corners.size(), f);
   }
-  return find_crossing_faces(positions, triangles);
+  return find_crossing_faces(positions, triangles, wanted);
 }
+
+}  // namespace
+
+FaceGuard::FaceGuard(const PolyMesh& mesh, const VertexPlaces& places)
+    : mesh_(mesh),
+      allowed_(crossing_pairs(mesh, places.positions(),
+                              std::vector<std::uint8_t>(std::size_t(mesh.face_count()), 1))),
+      looked_at_(places.positions()) {}
 
 FaceGuard::Form FaceGuard::form(const VertexPlaces& places, Index face) const {
   const std::vector<Vec3>& p = places.positions();
@@ -47,7 +54,6 @@ FaceGuard::Form FaceGuard::form(const VertexPlaces& places, Index face) const {
 void FaceGuard::set_start(const VertexPlaces& places) {
   start_.resize(static_cast<std::size_t>(mesh_.face_count()));
   for (Index f = 0; f < mesh_.face_count(); ++f) start_[f] = form(places, f);
-  crossings_ = crossing_pairs(mesh_, places.positions());
 }
 
 std::vector<std::uint8_t> FaceGuard::spoilt(const VertexPlaces& places) const {
@@ -64,10 +70,16 @@ std::vector<std::uint8_t> FaceGuard::spoilt(const VertexPlaces& places) const {
   return spoilt;
 }
 
-std::vector<std::uint8_t> FaceGuard::newly_crossing(const VertexPlaces& places) const {
+std::vector<std::uint8_t> FaceGuard::newly_crossing(const VertexPlaces& places) {
+  std::vector<std::uint8_t> has_moved(static_cast<std::size_t>(mesh_.face_count()), 0);
+  for (Index f = 0; f < mesh_.face_count(); ++f) {
+    has_moved[f] = std::ranges::any_of(
+        mesh_.face(f), [&](Index v) { return places.positions()[v] != looked_at_[v]; });
+  }
+  looked_at_ = places.positions();
   std::vector<std::uint8_t> crossing(mesh_.positions.size(), 0);
-  for (const auto& pair : crossing_pairs(mesh_, places.positions())) {
-    if (std::binary_search(crossings_.begin(), crossings_.end(), pair)) continue;
+  for (const auto& pair : crossing_pairs(mesh_, places.positions(), has_moved)) {
+    if (std::binary_search(allowed_.begin(), allowed_.end(), pair)) continue;
     for (const Index f : pair) {
       for (const Index v : mesh_.face(f)) crossing[v] = 1;
     }

@@ -17,14 +17,16 @@ namespace strake::fitting {
 /// had where that is below 20 degrees, and no two faces may begin to cross.
 class FaceGuard {
  public:
-  explicit FaceGuard(const PolyMesh& mesh) : mesh_(mesh) {}
+  /// Faces that cross at these places may go on crossing.
+  FaceGuard(const PolyMesh& mesh, const VertexPlaces& places);
 
-  /// Takes the faces as they are now as the state to compare with.
+  /// Takes the shapes of the faces as they are now as the state to compare with.
   void set_start(const VertexPlaces& places);
   /// [V] 1 at the vertices of faces that got worse in shape.
   [[nodiscard]] std::vector<std::uint8_t> spoilt(const VertexPlaces& places) const;
-  /// [V] 1 at the vertices of faces that cross, of which at least one did not at the start.
-  [[nodiscard]] std::vector<std::uint8_t> newly_crossing(const VertexPlaces& places) const;
+  /// [V] 1 at the vertices of faces that have begun to cross. Looks only at faces that have moved
+  /// since the last call: all moves of the vertices returned must be taken back before the next.
+  [[nodiscard]] std::vector<std::uint8_t> newly_crossing(const VertexPlaces& places);
 
  private:
   struct Form {
@@ -36,12 +38,9 @@ class FaceGuard {
   [[nodiscard]] Form form(const VertexPlaces& places, Index face) const;
 
   const PolyMesh& mesh_;
-  std::vector<Form> start_;                      ///< [F]
-  std::vector<std::array<Index, 2>> crossings_;  ///< pairs of faces, ascending
+  std::vector<Form> start_;                    ///< [F]
+  std::vector<std::array<Index, 2>> allowed_;  ///< pairs of faces that may cross, ascending
+  std::vector<Vec3> looked_at_;                ///< [V] where crossings were last looked for
 };
-
-/// Pairs of faces that cross when the mesh has these positions.
-std::vector<std::array<Index, 2>> crossing_pairs(const PolyMesh& mesh,
-                                                 const std::vector<Vec3>& positions);
 
 }  // namespace strake::fitting

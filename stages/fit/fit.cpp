@@ -37,6 +37,8 @@ constexpr double kHoldOnSurface = 10;
 constexpr double kLeastHold = 1e-6;
 /// A vertex moves by at most this share of its shortest edge in a round.
 constexpr double kLongestMove = 0.25;
+/// Moves by a smaller share are rounding: they would only spoil what lies exactly in a plane.
+constexpr double kShortestMove = 1e-9;
 constexpr std::array<double, 3> kSteps = {1, 0.5, 0.25};  ///< shares of the moves that are tried
 constexpr int kMostRetreats = 10;  ///< times that vertices are put back for one step
 
@@ -49,7 +51,7 @@ class Fit {
         places_(mesh, surface_, quads),
         deviation_(mesh, surface_),
         lines_(quads.mesh),
-        guard_(quads.mesh),
+        guard_(quads.mesh, places_),
         system_(lines_.neighbours()) {
     measure();
   }
@@ -61,6 +63,7 @@ class Fit {
     const double square = deviation_.mean();
     const double cost_before = cost(square);
     const std::vector<Vec3> moves = solve(square);
+    if (std::ranges::all_of(moves, [](const Vec3& move) { return move.isZero(0); })) return false;
     for (const double step : kSteps) {
       for (Index v = 0; v < system_.size(); ++v) {
         places_.restore(v, start[v]);
@@ -146,7 +149,7 @@ class Fit {
     for (Index v = 0; v < system_.size(); ++v) {
       const double length = moves[v].norm();
       const double longest = kLongestMove * shortest[v];
-      if (!std::isfinite(length)) moves[v].setZero();
+      if (!(length >= kShortestMove * shortest[v]) || !std::isfinite(length)) moves[v].setZero();
       if (length > longest) moves[v] *= longest / length;
     }
     return moves;

@@ -69,6 +69,7 @@ int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const double permanent = x[0] * (y[1] * z[2] + y[2] * z[1]) + x[1] * (y[2] * z[0] + y[0] * z[2]) +
                            x[2] * (y[0] * z[1] + y[1] * z[0]);
   if (std::abs(determinant) > kBound3 * permanent) return sign(determinant);
+  if (permanent == 0) return 0;  // each product has a factor that is exactly 0
   ExactSum sum;
   add_determinant(sum, 1, a, b, c);
   add_determinant(sum, -1, a, b, d);

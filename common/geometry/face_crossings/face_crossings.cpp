@@ -127,6 +127,14 @@ bool triangles_cross(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b)
 
 std::vector<std::array<Index, 2>> find_crossing_faces(const std::vector<Vec3>& positions,
                                                       const FaceTriangles& triangles) {
+  const Index last = triangles.face.empty() ? kNone : std::ranges::max(triangles.face);
+  return find_crossing_faces(positions, triangles,
+                             std::vector<std::uint8_t>(static_cast<std::size_t>(last + 1), 1));
+}
+
+std::vector<std::array<Index, 2>> find_crossing_faces(const std::vector<Vec3>& positions,
+                                                      const FaceTriangles& triangles,
+                                                      const std::vector<std::uint8_t>& wanted) {
   std::vector<Triangle> shapes;
   std::vector<Index> faces;
   std::vector<BoxTree::Box> boxes;
@@ -142,8 +150,12 @@ std::vector<std::array<Index, 2>> find_crossing_faces(const std::vector<Vec3>& p
   const BoxTree tree(std::move(boxes));
   std::vector<std::vector<std::array<Index, 2>>> found(shapes.size());
   tbb::parallel_for(Index{0}, static_cast<Index>(shapes.size()), [&](Index i) {
+    if (wanted[faces[i]] == 0) return;
     tree.visit_touching(tree.box(i), [&](Index j) {
-      if (j <= i || faces[i] == faces[j] || !triangles_cross(shapes[i], shapes[j])) return;
+      const bool is_met_from_there = j <= i && wanted[faces[j]] != 0;
+      if (is_met_from_there || faces[i] == faces[j] || !triangles_cross(shapes[i], shapes[j])) {
+        return;
+      }
       found[i].push_back({std::min(faces[i], faces[j]), std::max(faces[i], faces[j])});
     });
   });

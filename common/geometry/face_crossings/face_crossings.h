@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "common/core/types.h"
@@ -19,5 +20,11 @@ bool triangles_cross(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b)
 /// Cost O(T log T) for T triangles, as long as few of their boxes touch.
 std::vector<std::array<Index, 2>> find_crossing_faces(const std::vector<Vec3>& positions,
                                                       const FaceTriangles& triangles);
+
+/// The same for the pairs of which at least one face is wanted.
+/// \param wanted  [F] 0 or 1
+std::vector<std::array<Index, 2>> find_crossing_faces(const std::vector<Vec3>& positions,
+                                                      const FaceTriangles& triangles,
+                                                      const std::vector<std::uint8_t>& wanted);
 
 }  // namespace strake

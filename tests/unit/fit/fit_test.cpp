@@ -194,6 +194,19 @@ TEST(Fit, TurnsWithTheModel) {
   }
 }
 
+// Moves of the size of rounding would only spoil faces that lie exactly in a plane.
+TEST(Fit, LeavesAResultInThePlaneAlone) {
+  SampleOptions options;
+  options.faces = 5000;
+  const Mat3 rotation = support::oblique_rotation();
+  const TriMesh mesh = support::plain_tri_mesh(
+      support::transformed(make_sample(SampleKind::plane, options), rotation));
+  options.faces = 500;
+  const QuadMesh quads =
+      placed_on(mesh, support::transformed(make_sample(SampleKind::plane, options), rotation));
+  EXPECT_EQ(fitted(mesh, quads).mesh.positions, quads.mesh.positions);
+}
+
 TEST(Fit, NoRoundsChangeNothing) {
   const SphereCase sphere;
   EXPECT_EQ(fitted(sphere.mesh, sphere.quads, 0).mesh.positions, sphere.quads.mesh.positions);

@@ -152,6 +152,10 @@ TEST(CrossingFaces, AreThoseThatAllPairsGive) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
     EXPECT_EQ(find_crossing_faces(mesh.positions, triangles), expected);
   }
+  std::vector<std::uint8_t> wanted(static_cast<std::size_t>(mesh.face_count()), 0);
+  for (std::size_t f = 0; f < wanted.size(); f += 3) wanted[f] = 1;
+  std::erase_if(expected, [&](const auto& pair) { return !wanted[pair[0]] && !wanted[pair[1]]; });
+  EXPECT_EQ(find_crossing_faces(mesh.positions, triangles, wanted), expected);
 }
 
 TEST(CrossingFaces, AreOfDifferentFacesAndHaveAnArea) {
