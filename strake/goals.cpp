@@ -21,51 +21,51 @@ constexpr double kMissing = 0.02;
 /// many cells good enough that would be divided without.
 constexpr int kFittedRefinements = 2;
 
-std::int64_t count_of(const Pipeline& pipeline, const char* port, Counted counted) {
-  const PolyMesh& mesh = pipeline.get<QuadMesh>(port).mesh;
+std::int64_t count_of(const Session& session, const char* port, Counted counted) {
+  const PolyMesh& mesh = session.get<QuadMesh>(port).mesh;
   return counted == Counted::vertices ? mesh.vertex_count() : mesh.face_count();
 }
 
 const char* name_of(Counted counted) { return counted == Counted::vertices ? "vertices" : "faces"; }
 
-void trace_and_mesh(Pipeline& pipeline, const GoalStages& stages) {
-  pipeline.run(stages.trace);
-  pipeline.run(stages.mesh);
+void trace_and_mesh(Session& session, const GoalStages& stages) {
+  session.run(stages.trace);
+  session.run(stages.mesh);
 }
 
 /// Wants other distances between lines where the present result is too far from the surface, and
 /// corrects the scale of all of them by the count.
-void feed_back(Pipeline& pipeline, const GoalStages& stages, Counted counted, std::int64_t aim) {
-  pipeline.run(stages.fit);
-  pipeline.run(stages.size);
+void feed_back(Session& session, const GoalStages& stages, Counted counted, std::int64_t aim) {
+  session.run(stages.fit);
+  session.run(stages.size);
   const Option& scale = stages.trace.option("spacing-scale");
   const double excess =
-      static_cast<double>(count_of(pipeline, "quads", counted)) / static_cast<double>(aim);
+      static_cast<double>(count_of(session, "quads", counted)) / static_cast<double>(aim);
   const double corrected = std::stod(scale.value()) * std::sqrt(excess);
   scale.parse_into(fmt::format("{}", std::clamp(corrected, scale.min, scale.max)));
 }
 
 /// Looks for the scale of distances that gives the count. \pre traced and meshed at the present one
-void search_scale(Pipeline& pipeline, const GoalStages& stages, Counted counted, std::int64_t aim,
+void search_scale(Session& session, const GoalStages& stages, Counted counted, std::int64_t aim,
                   ConsoleObserver& console) {
   const Option& option = stages.trace.option("spacing-scale");
   CountSearch search(aim, std::stod(option.value()), option.min, option.max);
-  Pipeline best = pipeline;
+  Session best = session;
   while (const std::optional<double> scale = search.next()) {
     option.parse_into(fmt::format("{}", *scale));
     try {
-      trace_and_mesh(pipeline, stages);
+      trace_and_mesh(session, stages);
     } catch (const AlgorithmError& error) {
       if (search.trial_count() == 0) throw;
       console.say(std::string("warning: gave up correcting the count: ") + error.what());
       break;
     }
-    const std::int64_t count = count_of(pipeline, "quads", counted);
+    const std::int64_t count = count_of(session, "quads", counted);
     console.say(fmt::format("{} {}, {} wanted", count, name_of(counted), aim));
     search.record(*scale, count);
-    if (search.best().scale == *scale) best = pipeline;
+    if (search.best().scale == *scale) best = session;
   }
-  pipeline = best;
+  session = best;
   option.parse_into(fmt::format("{}", search.best().scale));
 }
 
@@ -75,35 +75,35 @@ bool only_quads(const GoalStages& stages) {
 }
 
 /// Fits the refined result once more.
-void fit_refined(Pipeline& pipeline, const GoalStages& stages) {
-  pipeline.provide_as("quads", pipeline.get<QuadMesh>("refined"), "refined");
-  pipeline.run(stages.fit);
+void fit_refined(Session& session, const GoalStages& stages) {
+  session.provide_as("quads", session.get<QuadMesh>("refined"), "refined");
+  session.run(stages.fit);
 }
 
 }  // namespace
 
-std::string meet_count(Pipeline& pipeline, const GoalStages& stages, Counted counted,
+std::string meet_count(Session& session, const GoalStages& stages, Counted counted,
                        std::int64_t wanted, std::int64_t feedback_rounds,
                        ConsoleObserver& console) {
   for (std::int64_t round = 0; round < feedback_rounds; ++round) {
-    trace_and_mesh(pipeline, stages);
-    feed_back(pipeline, stages, counted, wanted);
+    trace_and_mesh(session, stages);
+    feed_back(session, stages, counted, wanted);
   }
-  search_scale(pipeline, stages, counted, wanted, console);
-  pipeline.keep(stages.trace);
-  pipeline.keep(stages.mesh);
-  pipeline.run(stages.fit);
-  const std::int64_t missing = wanted - count_of(pipeline, "fitted", counted);
+  search_scale(session, stages, counted, wanted, console);
+  session.keep(stages.trace);
+  session.keep(stages.mesh);
+  session.run(stages.fit);
+  const std::int64_t missing = wanted - count_of(session, "fitted", counted);
   if (static_cast<double>(missing) > kMissing * static_cast<double>(wanted) &&
       !only_quads(stages)) {
-    const std::int64_t vertices = count_of(pipeline, "fitted", Counted::vertices) + missing;
+    const std::int64_t vertices = count_of(session, "fitted", Counted::vertices) + missing;
     stages.refine.option("refine-vertices").parse_into(std::to_string(vertices));
-    pipeline.run(stages.refine);
-    pipeline.keep(stages.refine);
-    fit_refined(pipeline, stages);
+    session.run(stages.refine);
+    session.keep(stages.refine);
+    fit_refined(session, stages);
   }
-  pipeline.keep(stages.fit);
-  const std::int64_t reached = count_of(pipeline, "fitted", counted);
+  session.keep(stages.fit);
+  const std::int64_t reached = count_of(session, "fitted", counted);
   const double off = std::abs(static_cast<double>(reached - wanted)) / static_cast<double>(wanted);
   if (off > kCountTolerance) {
     console.say(fmt::format(
@@ -114,17 +114,17 @@ std::string meet_count(Pipeline& pipeline, const GoalStages& stages, Counted cou
   return "fitted";
 }
 
-std::string follow_spacing(Pipeline& pipeline, const GoalStages& stages) {
+std::string follow_spacing(Session& session, const GoalStages& stages) {
   for (const Stage* stage : {&stages.trace, &stages.mesh, &stages.fit}) {
-    pipeline.run(*stage);
-    pipeline.keep(*stage);
+    session.run(*stage);
+    session.keep(*stage);
   }
   return "fitted";
 }
 
-std::string meet_tolerance(Pipeline& pipeline, const GoalStages& stages,
-                           const std::string& tolerance, ConsoleObserver& console) {
-  const std::string fitted = follow_spacing(pipeline, stages);
+std::string meet_tolerance(Session& session, const GoalStages& stages, const std::string& tolerance,
+                           ConsoleObserver& console) {
+  const std::string fitted = follow_spacing(session, stages);
   stages.refine.option("refine-tolerance").parse_into(tolerance);
   if (only_quads(stages)) {
     console.say(
@@ -139,13 +139,13 @@ std::string meet_tolerance(Pipeline& pipeline, const GoalStages& stages,
   partly.parse_into("true");
   for (int i = 0; i < std::min(kFittedRefinements, std::stoi(all_rounds)); ++i) {
     rounds.parse_into("1");
-    pipeline.run(stages.refine);
-    fit_refined(pipeline, stages);
+    session.run(stages.refine);
+    fit_refined(session, stages);
   }
   rounds.parse_into(all_rounds);
   partly.parse_into(may_miss);
-  pipeline.run(stages.refine);
-  pipeline.keep(stages.refine);
+  session.run(stages.refine);
+  session.keep(stages.refine);
   return "refined";
 }
 

@@ -5,7 +5,7 @@
 
 #include "common/stage/console.h"
 #include "common/stage/stage.h"
-#include "strake/pipeline.h"
+#include "strake/session.h"
 
 namespace strake {
 
@@ -27,18 +27,18 @@ enum class Counted { vertices, faces };
 /// errors measured; then only the scale of all distances changes. Where more than 2 % of the count
 /// are missing in the end the cells that are farthest off are divided.
 /// \return the port of the result
-std::string meet_count(Pipeline& pipeline, const GoalStages& stages, Counted counted,
+std::string meet_count(Session& session, const GoalStages& stages, Counted counted,
                        std::int64_t wanted, std::int64_t feedback_rounds, ConsoleObserver& console);
 
 /// Traces once, at the distances that the options of tracing ask for. \return the port of the
 /// result
-std::string follow_spacing(Pipeline& pipeline, const GoalStages& stages);
+std::string follow_spacing(Session& session, const GoalStages& stages);
 
 /// Traces once, and divides cells until the result is within a tolerance of the surface, both ways.
 /// \param tolerance  as `Length::to_string` gives it
 /// \return the port of the result
 /// \throw ToleranceError naming places where that is not reached
-std::string meet_tolerance(Pipeline& pipeline, const GoalStages& stages,
-                           const std::string& tolerance, ConsoleObserver& console);
+std::string meet_tolerance(Session& session, const GoalStages& stages, const std::string& tolerance,
+                           ConsoleObserver& console);
 
 }  // namespace strake

@@ -23,7 +23,7 @@
 #include "stages/trace/stage.h"
 #include "strake/commands.h"
 #include "strake/goals.h"
-#include "strake/pipeline.h"
+#include "strake/session.h"
 #include "strake/summary.h"
 
 namespace strake {
@@ -69,7 +69,7 @@ struct RemeshCommand {
 
  private:
   /// Runs the stages from tracing on, as often as the goal takes. \return the port of the result
-  std::string reach_goal(Pipeline& pipeline, ConsoleObserver& console) const;
+  std::string reach_goal(Session& session, ConsoleObserver& console) const;
 };
 
 void RemeshCommand::add_to(CLI::App& app) {
@@ -125,17 +125,17 @@ Provenance RemeshCommand::provenance(const std::string& input_digest) const {
   return whole;
 }
 
-std::string RemeshCommand::reach_goal(Pipeline& pipeline, ConsoleObserver& console) const {
+std::string RemeshCommand::reach_goal(Session& session, ConsoleObserver& console) const {
   const GoalStages stages{trace, mesh, fit, size, refine};
   for (const Counted counted : {Counted::vertices, Counted::faces}) {
     const char* name = counted == Counted::vertices ? "vertices" : "faces";
     const std::string wanted = trace.option(name).value();
     if (wanted.empty()) continue;
-    return meet_count(pipeline, stages, counted, std::stoll(wanted), feedback_rounds, console);
+    return meet_count(session, stages, counted, std::stoll(wanted), feedback_rounds, console);
   }
   const std::string tolerance = trace.option("tolerance").value();
-  if (tolerance.empty()) return follow_spacing(pipeline, stages);
-  return meet_tolerance(pipeline, stages, tolerance, console);
+  if (tolerance.empty()) return follow_spacing(session, stages);
+  return meet_tolerance(session, stages, tolerance, console);
 }
 
 void RemeshCommand::run() {
@@ -143,37 +143,37 @@ void RemeshCommand::run() {
   ConsoleObserver console = shell.console();
   console.begin("strake");
   console.report("reading " + input, 0);
-  Pipeline pipeline(console);
-  if (!keep.empty()) pipeline.keep_in(keep);
+  Session session(console);
+  if (!keep.empty()) session.keep_in(keep);
   const std::string digest = content_digest(input);
-  pipeline.provide("input", load_value(PortKind::polygons, input), input, digest);
+  session.provide("input", load_value(PortKind::polygons, input), input, digest);
   if (!feature_edges.empty()) {
-    pipeline.provide("feature-edges", load_value(PortKind::edge_list, feature_edges), feature_edges,
-                     content_digest(feature_edges));
+    session.provide("feature-edges", load_value(PortKind::edge_list, feature_edges), feature_edges,
+                    content_digest(feature_edges));
   }
   if (!density.empty()) {
-    pipeline.provide("density", load_value(PortKind::density, density), density,
-                     content_digest(density));
+    session.provide("density", load_value(PortKind::density, density), density,
+                    content_digest(density));
   }
   for (const Stage* stage : {&import, &tensor, &smooth}) {
-    pipeline.run(*stage);
-    pipeline.keep(*stage);
+    session.run(*stage);
+    session.keep(*stage);
   }
-  const std::string port = reach_goal(pipeline, console);
-  const QuadMesh& quads = pipeline.get<QuadMesh>(port);
+  const std::string port = reach_goal(session, console);
+  const QuadMesh& quads = session.get<QuadMesh>(port);
   if (!no_evaluate) {
-    pipeline.provide_as("candidate", Polygons{quads.mesh, quads.mesh_id, {}}, port);
-    pipeline.run(evaluate);
-    pipeline.keep(evaluate);
+    session.provide_as("candidate", Polygons{quads.mesh, quads.mesh_id, {}}, port);
+    session.run(evaluate);
+    session.keep(evaluate);
   }
   save_value(output, quads, nullptr, provenance(digest));
-  if (!shell.report_path.empty()) write_text(shell.report_path, records_json(pipeline.records()));
+  if (!shell.report_path.empty()) write_text(shell.report_path, records_json(session.records()));
   if (shell.verbose) {
-    for (const StageRecord& record : pipeline.records()) {
+    for (const StageRecord& record : session.records()) {
       console.say("\n" + record.provenance.stage + "\n" + report_text(record.report));
     }
   }
-  const Report* measures = no_evaluate ? nullptr : &pipeline.records().back().report;
+  const Report* measures = no_evaluate ? nullptr : &session.records().back().report;
   if (!shell.quiet) std::fputs(summary_text(output, quads.mesh, measures).c_str(), stdout);
 }
 

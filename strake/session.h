@@ -16,9 +16,9 @@ namespace strake {
 /// input port takes what the output port of that name gave.
 ///
 /// Values never change once made, so a copy is a cheap snapshot to return to.
-class Pipeline {
+class Session {
  public:
-  explicit Pipeline(ConsoleObserver& console) : console_(&console) {}
+  explicit Session(ConsoleObserver& console) : console_(&console) {}
 
   /// Where to keep each output as the file "port.hdf", and reports as "stage.json".
   /// \throw InputError where the folder cannot be made

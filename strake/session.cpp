@@ -1,4 +1,4 @@
-#include "strake/pipeline.h"
+#include "strake/session.h"
 
 #include <utility>
 
@@ -10,7 +10,7 @@ namespace strake {
 
 namespace fs = std::filesystem;
 
-void Pipeline::keep_in(const fs::path& folder) {
+void Session::keep_in(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (!fs::is_directory(folder)) {
@@ -19,24 +19,24 @@ void Pipeline::keep_in(const fs::path& folder) {
   folder_ = folder;
 }
 
-void Pipeline::provide(const std::string& port, Value value, const std::string& origin,
-                       const std::string& digest) {
+void Session::provide(const std::string& port, Value value, const std::string& origin,
+                      const std::string& digest) {
   values_[port] = {std::make_shared<const Value>(std::move(value)), origin, digest};
 }
 
-void Pipeline::provide_as(const std::string& port, Value value, const std::string& source) {
+void Session::provide_as(const std::string& port, Value value, const std::string& source) {
   const Entry& entry = values_.at(source);
   provide(port, std::move(value), entry.origin, entry.digest);
 }
 
-StageRecord& Pipeline::record_of(const Stage& stage) {
+StageRecord& Session::record_of(const Stage& stage) {
   for (StageRecord& record : records_) {
     if (record.provenance.stage == stage.name) return record;
   }
   return records_.emplace_back();
 }
 
-void Pipeline::note_inputs(const Stage& stage, Provenance& provenance) const {
+void Session::note_inputs(const Stage& stage, Provenance& provenance) const {
   provenance.inputs.clear();
   for (const Port& port : stage.inputs) {
     const auto entry = values_.find(port.name);
@@ -45,7 +45,7 @@ void Pipeline::note_inputs(const Stage& stage, Provenance& provenance) const {
   }
 }
 
-const Report& Pipeline::run(const Stage& stage) {
+const Report& Session::run(const Stage& stage) {
   console_->begin(stage.name);
   Inputs inputs;
   for (const Port& port : stage.inputs) {
@@ -63,7 +63,7 @@ const Report& Pipeline::run(const Stage& stage) {
   return record.report;
 }
 
-void Pipeline::keep(const Stage& stage) {
+void Session::keep(const Stage& stage) {
   if (folder_.empty()) return;
   StageRecord& record = record_of(stage);
   note_inputs(stage, record.provenance);
