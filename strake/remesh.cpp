@@ -32,20 +32,31 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::int64_t kFeedbackRounds = 1;
+/// Lines go on where their neighbours are nearer than wanted, so one round gives half of a density.
+constexpr std::int64_t kFeedbackRoundsOfDensity = 3;
+
+/// A file beside the mesh, that a stage takes by the port of its name.
+struct SideFile {
+  std::string port;
+  PortKind kind = PortKind::report;
+  std::string path = {};  ///< "": not given
+};
 
 /// Everything `strake remesh` was asked for.
 struct RemeshCommand {
   std::string input;
   std::string output;
   std::string keep;
-  std::string feature_edges;
-  std::string density;
-  std::int64_t feedback_rounds = kFeedbackRounds;
+  SideFile feature_edges = {"feature-edges", PortKind::edge_list};
+  SideFile guides = {"guides", PortKind::guides};
+  SideFile density = {"density", PortKind::density};
+  std::optional<std::int64_t> feedback_rounds;
   OptionList own_options = {
       {.name = "feedback-rounds",
        .target = &feedback_rounds,
        .unit = "",
-       .help = "Times that lines are traced again to even out errors, where a count is wanted.",
+       .help = "Times that lines are traced again to even out errors, where a count is wanted; 1, "
+               "with a density 3.",
        .min = 0,
        .max = 20}};
   bool no_evaluate = false;
@@ -63,6 +74,8 @@ struct RemeshCommand {
 
   void add_to(CLI::App& app);
   void check() const;
+  [[nodiscard]] std::vector<SideFile> side_files() const;
+  [[nodiscard]] std::int64_t wanted_rounds() const;
   /// How one would say that the result was made in one go.
   [[nodiscard]] Provenance provenance(const std::string& input_digest) const;
   void run();
@@ -81,8 +94,10 @@ void RemeshCommand::add_to(CLI::App& app) {
       ->required();
   app.add_option("--keep", keep, "Keep the artifact and report of every stage in this folder.")
       ->type_name("FOLDER");
-  app.add_option("--feature-edges", feature_edges, import.inputs.back().help)->type_name("FILE");
-  app.add_option("--density", density,
+  app.add_option("--feature-edges", feature_edges.path, import.inputs.back().help)
+      ->type_name("FILE");
+  app.add_option("--guides", guides.path, smooth.inputs.back().help)->type_name("FILE");
+  app.add_option("--density", density.path,
                  "PLY file of the same vertices, with a vertex property 'density': wanted vertices "
                  "per area, relative to what they would be.")
       ->type_name("FILE.ply");
@@ -110,6 +125,19 @@ void RemeshCommand::check() const {
   }
 }
 
+std::vector<SideFile> RemeshCommand::side_files() const {
+  std::vector<SideFile> given;
+  for (const SideFile* file : {&feature_edges, &guides, &density}) {
+    if (!file->path.empty()) given.push_back(*file);
+  }
+  return given;
+}
+
+std::int64_t RemeshCommand::wanted_rounds() const {
+  return feedback_rounds.value_or(density.path.empty() ? kFeedbackRounds
+                                                       : kFeedbackRoundsOfDensity);
+}
+
 Provenance RemeshCommand::provenance(const std::string& input_digest) const {
   Provenance whole;
   whole.stage = "remesh";
@@ -118,10 +146,12 @@ Provenance RemeshCommand::provenance(const std::string& input_digest) const {
     whole.stage_version += part.stage_version;
     whole.options.insert(whole.options.end(), part.options.begin(), part.options.end());
   }
-  const Option& rounds = own_options.front();
-  whole.options.push_back({rounds.name, rounds.value(), feedback_rounds == kFeedbackRounds});
+  whole.options.push_back(
+      {own_options.front().name, std::to_string(wanted_rounds()), !feedback_rounds});
   whole.inputs = {{"input", input_digest}};
-  if (!density.empty()) whole.inputs.push_back({"density", content_digest(density)});
+  for (const SideFile& file : side_files()) {
+    whole.inputs.push_back({file.port, content_digest(file.path)});
+  }
   return whole;
 }
 
@@ -131,7 +161,7 @@ std::string RemeshCommand::reach_goal(Session& session, ConsoleObserver& console
     const char* name = counted == Counted::vertices ? "vertices" : "faces";
     const std::string wanted = trace.option(name).value();
     if (wanted.empty()) continue;
-    return meet_count(session, stages, counted, std::stoll(wanted), feedback_rounds, console);
+    return meet_count(session, stages, counted, std::stoll(wanted), wanted_rounds(), console);
   }
   const std::string tolerance = trace.option("tolerance").value();
   if (tolerance.empty()) return follow_spacing(session, stages);
@@ -147,13 +177,9 @@ void RemeshCommand::run() {
   if (!keep.empty()) session.keep_in(keep);
   const std::string digest = content_digest(input);
   session.provide("input", load_value(PortKind::polygons, input), input, digest);
-  if (!feature_edges.empty()) {
-    session.provide("feature-edges", load_value(PortKind::edge_list, feature_edges), feature_edges,
-                    content_digest(feature_edges));
-  }
-  if (!density.empty()) {
-    session.provide("density", load_value(PortKind::density, density), density,
-                    content_digest(density));
+  for (const SideFile& file : side_files()) {
+    session.provide(file.port, load_value(file.kind, file.path), file.path,
+                    content_digest(file.path));
   }
   for (const Stage* stage : {&import, &tensor, &smooth}) {
     session.run(*stage);

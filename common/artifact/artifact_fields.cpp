@@ -39,6 +39,37 @@ void read_tensors(const ArtifactReader& file, Tensors& tensor, std::vector<Vec3>
   }
 }
 
+constexpr std::array<const char*, 4> kGuideDatasets = {"guide_offsets", "guide_face",
+                                                       "guide_barycentric", "guide_step"};
+
+void write_guides(ArtifactWriter& file, const LaidGuides& guides) {
+  if (guides.line_count() == 0) return;
+  file.own("guide_offsets", guides.offsets);
+  file.own("guide_face", guides.face);
+  file.own("guide_barycentric", guides.barycentric);
+  file.own("guide_step", guides.step);
+}
+
+/// \param faces  of the mesh
+LaidGuides read_guides(const ArtifactReader& file, std::size_t faces) {
+  LaidGuides guides;
+  if (std::none_of(kGuideDatasets.begin(), kGuideDatasets.end(),
+                   [&](const char* name) { return file.has(name); })) {
+    return guides;
+  }
+  guides.offsets = file.own<Index>("guide_offsets");
+  guides.face = file.own<Index>("guide_face");
+  guides.barycentric = file.own<Vec3>("guide_barycentric");
+  guides.step = file.own<Vec3>("guide_step");
+  file.require_offsets(guides.offsets, guides.face.size(), 1, "guide_offsets");
+  file.require_indices(guides.face, 0, faces, "guide_face");
+  file.require_rows(guides.barycentric, guides.face.size(), "guide_barycentric");
+  file.require_finite(guides.barycentric, "guide_barycentric");
+  file.require_rows(guides.step, guides.face.size(), "guide_step");
+  file.require_finite(guides.step, "guide_step");
+  return guides;
+}
+
 /// The one number of a dataset that has one row.
 Index read_number(const ArtifactReader& file, const char* name) {
   const auto rows = file.own<Index>(name);
@@ -139,6 +170,7 @@ bool write_artifact(const std::filesystem::path& path, const PrincipalField& fie
   file.own("wedge_confidence", field.wedge_confidence);
   file.own("face_confidence", field.face_confidence);
   file.own("cross_extended", std::vector<std::uint8_t>{field.cross_extended});
+  write_guides(file, field.guides);
   for (const char* name : {"normal", "t_min", "k_min", "k_max", "cross", "wedge_confidence"}) {
     file.show(name, std::string("PointData/") + name);
   }
@@ -168,6 +200,7 @@ PrincipalField read_principal_field(const std::filesystem::path& path) {
   file.require_rows(cross_extended, 1, "cross_extended");
   file.require_codes(cross_extended, 2, "cross_extended");
   field.cross_extended = cross_extended.front() != 0;
+  field.guides = read_guides(file, field.face_confidence.size());
   return field;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/core/guides.h"
 #include "common/core/types.h"
 
 namespace strake {
@@ -32,6 +33,7 @@ struct PrincipalField {
   std::vector<double> wedge_confidence;  ///< [W] in [0, 1], mean over the wedge's faces
   std::vector<double> face_confidence;   ///< [F] in [0, 1], [MK04] equation 1, of t_min
   bool cross_extended = false;           ///< whether `cross` is the smooth 4-symmetric extension
+  LaidGuides guides;                     ///< that `cross` was made to follow
 };
 
 /// Wanted distances between neighbouring lines at every wedge, not graded yet: what tracing takes

@@ -6,6 +6,7 @@
 
 #include "common/artifact/artifact.h"
 #include "common/artifact/edge_list_file.h"
+#include "common/artifact/meshfile/guide_reader.h"
 #include "common/artifact/meshfile/mesh_writer.h"
 #include "common/core/error.h"
 
@@ -58,8 +59,11 @@ bool fits(const TriMesh& mesh, const Value& value) {
   return std::visit(Overloaded{
                         [&](const TensorField& field) { return field.tensor.size() == wedges; },
                         [&](const PrincipalField& field) {
+                          const auto& faces = field.guides.face;
                           return field.normal.size() == wedges &&
-                                 field.face_confidence.size() == mesh.faces.size();
+                                 field.face_confidence.size() == mesh.faces.size() &&
+                                 std::all_of(faces.begin(), faces.end(),
+                                             [&](Index face) { return face < mesh.face_count(); });
                         },
                         [&](const LineSet& lines) { return fits(mesh, lines); },
                         [&](const TensorPart& part) {
@@ -102,6 +106,8 @@ Value load_value(PortKind kind, const fs::path& path) {
       return read_size_field(path);
     case PortKind::density:
       return DensityField{"", read_density(path)};
+    case PortKind::guides:
+      return read_guides(path);
     case PortKind::report:
       break;
   }
@@ -122,6 +128,7 @@ void save_value(const fs::path& path, const Value& value, const TriMesh* mesh,
             throw Error(ExitCode::internal, "a list of edges is not written");
           },
           [&](const DensityField&) { throw Error(ExitCode::internal, "a density is not written"); },
+          [&](const GuideLines&) { throw Error(ExitCode::internal, "guides are not written"); },
           [&](const QuadMesh& quads) {
             if (lower_extension(path) == kArtifactExtension) {
               write_artifact(path, quads, provenance);
@@ -160,6 +167,7 @@ std::string mesh_id_of(const Value& value) {
   return std::visit(Overloaded{[](const TriMesh& mesh) { return mesh.id; },
                                [](const OpenedMesh& mesh) { return mesh->header().id; },
                                [](const EdgeList&) { return std::string(); },
+                               [](const GuideLines&) { return std::string(); },
                                [](const auto& other) { return other.mesh_id; }},
                     value);
 }
@@ -168,7 +176,8 @@ void check_belongs(const TriMesh& mesh, const std::string& mesh_name, const Valu
                    const std::string& name) {
   const std::string id = mesh_id_of(value);
   if (id.empty() &&
-      (std::holds_alternative<Polygons>(value) || std::holds_alternative<DensityField>(value))) {
+      (std::holds_alternative<Polygons>(value) || std::holds_alternative<DensityField>(value) ||
+       std::holds_alternative<GuideLines>(value))) {
     return;
   }
   if (id != mesh.id) {

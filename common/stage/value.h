@@ -10,6 +10,7 @@
 #include "common/artifact/provenance.h"
 #include "common/core/edge_list.h"
 #include "common/core/fields.h"
+#include "common/core/guides.h"
 #include "common/core/line_set.h"
 #include "common/core/mesh_blocks.h"
 #include "common/core/poly_mesh.h"
@@ -30,11 +31,12 @@ struct Polygons {
 using OpenedMesh = std::shared_ptr<const MeshBlocks>;
 
 using Value = std::variant<Polygons, TriMesh, TensorField, PrincipalField, LineSet, QuadMesh,
-                           OpenedMesh, TensorPart, EdgeList, SizeField, DensityField>;
+                           OpenedMesh, TensorPart, EdgeList, SizeField, DensityField, GuideLines>;
 
 /// Kinds of values a stage takes or gives; `report` is none but the report itself, `opened_mesh` a
 /// mesh artifact for a stage that needs less memory than all of it, `edge_list` a text file,
-/// `density` a PLY file whose vertices have that property; the last two are only read.
+/// `density` a PLY file whose vertices have that property, `guides` polylines in an OBJ or PLY
+/// file; the last three are only read.
 enum class PortKind {
   polygons,
   mesh,
@@ -47,6 +49,7 @@ enum class PortKind {
   edge_list,
   size,
   density,
+  guides,
   report
 };
 
@@ -56,7 +59,7 @@ Value load_value(PortKind kind, const std::filesystem::path& path);
 
 /// Writes a value: artifacts, and quads also as .obj, .ply or .off as the extension says.
 /// \param mesh  the mesh a field or line set belongs to; unused for others
-/// \pre it is no OpenedMesh, EdgeList or DensityField, which stages only take
+/// \pre it is no OpenedMesh, EdgeList, DensityField or GuideLines, which stages only take
 void save_value(const std::filesystem::path& path, const Value& value, const TriMesh* mesh,
                 const Provenance& provenance);
 

@@ -15,6 +15,7 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr double kFeatureWeight = 100;  ///< against Dirichlet weights of order one
+constexpr double kGuideWeight = 100;    ///< likewise, on the faces that a guide passes
 constexpr double kBoundaryWeight = 5;  ///< scan boundaries are ragged: follow, but not at any price
 constexpr double kLossAngle = 10 * M_PI / 180;  ///< of the loss of Geman and McClure
 constexpr int kReweightings = 6;
@@ -40,7 +41,7 @@ struct CrossSystem {
 
 CrossSystem cross_system(const TriMesh& mesh, const WedgeGraph& graph,
                          const std::vector<double>& areas, double stiffness,
-                         const PrincipalField& field) {
+                         const GuidePull& guides, const PrincipalField& field) {
   const auto n = static_cast<std::size_t>(graph.size());
   std::vector<TangentFrame> frames(n);
   CrossSystem system = {{graph.offsets, graph.neighbours,
@@ -54,6 +55,9 @@ CrossSystem cross_system(const TriMesh& mesh, const WedgeGraph& graph,
     const double confidence = field.wedge_confidence[w];
     system.hold[w] = stiffness / mesh.diagonal * confidence * confidence *
                      std::abs(field.k_max[w] - field.k_min[w]) * areas[w];
+    if (guides.distance.empty() || guides.distance[w] == 1) return;
+    system.principal[w] = cross_power(frames[w].tangent_from_world(guides.direction[w]));
+    system.hold[w] *= 1 - guides.distance[w];
   });
   tbb::parallel_for(Index{0}, graph.size(), [&](Index w) {
     double diagonal = 0;
@@ -73,6 +77,10 @@ CrossSystem cross_system(const TriMesh& mesh, const WedgeGraph& graph,
       }
       diagonal += weight;
       system.matrix.values[at] = -weight * here * std::conj(there);
+    }
+    if (!guides.distance.empty() && guides.distance[w] == 0) {
+      diagonal += kGuideWeight;
+      system.right[w] += kGuideWeight * system.principal[w];
     }
     // A trace of weight everywhere keeps components without any reliable direction solvable.
     const double trace = 1e-9 * std::max(diagonal, 1e-30);
@@ -102,8 +110,8 @@ Index solve_reweighted(const CrossSystem& system, const SolverOptions& options,
 
 Index extend_cross_field(const TriMesh& mesh, const WedgeGraph& graph,
                          const std::vector<double>& areas, double stiffness,
-                         PrincipalField& field) {
-  const CrossSystem system = cross_system(mesh, graph, areas, stiffness, field);
+                         const GuidePull& guides, PrincipalField& field) {
+  const CrossSystem system = cross_system(mesh, graph, areas, stiffness, guides, field);
   std::vector<Complex> solution = system.principal;
   Index iterations = 0;
   for (int round = 0; round <= kReweightings; ++round) {

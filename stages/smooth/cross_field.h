@@ -4,6 +4,7 @@
 
 #include "common/core/fields.h"
 #include "common/core/tri_mesh.h"
+#include "stages/smooth/guide_pull.h"
 #include "stages/smooth/wedge_graph.h"
 
 namespace strake {
@@ -19,9 +20,16 @@ namespace strake {
 /// everywhere. The loss is that of Geman and McClure (at most 1), for what disagrees with its
 /// surroundings altogether (noise, details smaller than those) to be given up instead of bending
 /// the field half-way. A few linear solves with weights from the solution before. Beyond [MK04];
-/// 4-symmetric after Palacios and Zhang 2007. \param graph of the mesh \param areas [W] \return
-/// number of iterations of the linear solver, of all solves together
+/// 4-symmetric after Palacios and Zhang 2007.
+///
+/// Guides hold like features on the faces that they pass. Within their reach their direction takes
+/// the place of the principal one, with a hold that fades out towards its end.
+/// \param graph   of the mesh
+/// \param areas   [W]
+/// \param guides  empty for none
+/// \return number of iterations of the linear solver, of all solves together
 Index extend_cross_field(const TriMesh& mesh, const WedgeGraph& graph,
-                         const std::vector<double>& areas, double stiffness, PrincipalField& field);
+                         const std::vector<double>& areas, double stiffness,
+                         const GuidePull& guides, PrincipalField& field);
 
 }  // namespace strake

@@ -22,6 +22,12 @@ OptionList SmoothOptions::declare() {
        .help = "How strongly the cross field holds to the curvature directions.",
        .min = 0,
        .max = 1e6},
+      {.name = "guide-reach",
+       .target = &guide_reach,
+       .unit = "length",
+       .help = "Around a guide line, within which edges follow it instead of the curvature.",
+       .min = 0,
+       .max = 1},
   };
 }
 

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 
+#include "common/core/error.h"
 #include "common/geometry/frames.h"
 #include "common/geometry/mesh_measures.h"
 #include "stages/smooth/cross_field.h"
+#include "stages/smooth/guide_layout.h"
 
 namespace strake {
 namespace {
@@ -88,6 +90,18 @@ std::vector<Tensor> smoothing_step(const WedgeGraph& graph, const PrincipalField
   return next;
 }
 
+/// Lays guides onto the mesh, into the field. \return what they do to it; nothing without any
+GuidePull take_guides(const TriMesh& mesh, const WedgeGraph& graph, const GuideLines* guides,
+                      double reach, SmoothResult& result) {
+  if (guides == nullptr) return {};
+  result.field.guides = lay_guides(mesh, *guides);
+  double length = 0;
+  for (const Vec3& step : result.field.guides.step) length += step.norm();
+  result.report.set("smooth.guides", static_cast<std::int64_t>(result.field.guides.line_count()));
+  result.report.set("smooth.guide_length", length);
+  return guide_pull(mesh, graph, result.field, reach);
+}
+
 /// Makes `cross` the arm nearest to t_min.
 void name_arms(PrincipalField& field) {
   tbb::parallel_for(Index{0}, static_cast<Index>(field.cross.size()), [&](Index w) {
@@ -101,7 +115,12 @@ void name_arms(PrincipalField& field) {
 }  // namespace
 
 SmoothResult smooth_tensors(const TriMesh& mesh, const TensorField& tensor,
-                            const SmoothOptions& options, Observer& observer) {
+                            const SmoothOptions& options, Observer& observer,
+                            const GuideLines* guides) {
+  if (guides != nullptr && options.extension != "cross") {
+    throw UsageError("guide lines turn the cross field, which --extension " + options.extension +
+                     " does without; leave one of them out");
+  }
   SmoothResult result;
   PrincipalField& field = result.field;
   const auto count = static_cast<std::size_t>(mesh.wedge_count());
@@ -121,8 +140,10 @@ SmoothResult smooth_tensors(const TriMesh& mesh, const TensorField& tensor,
   if (options.extension == "cross") {
     // From the tensors as estimated: the solve evens out what is doubtful, and only that.
     observer.report("extending the cross field", 0);
+    const GuidePull pull =
+        take_guides(mesh, graph, guides, options.guide_reach.resolve(mesh.diagonal), result);
     const Index iterations =
-        extend_cross_field(mesh, graph, wedge_areas(mesh), options.field_stiffness, field);
+        extend_cross_field(mesh, graph, wedge_areas(mesh), options.field_stiffness, pull, field);
     result.report.set("smooth.solver_iterations", static_cast<std::int64_t>(iterations));
   }
   std::vector<Tensor> tensors = tensor.tensor;

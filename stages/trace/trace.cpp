@@ -186,10 +186,29 @@ std::pair<Spacing, double> choose_spacing(const TriMesh& mesh, const PrincipalFi
   return {model.for_tolerance(family_tolerance, limits), family_tolerance / kShareOfFamily};
 }
 
-/// Seeds at corners, along feature and boundary lines, and at random, in the order to be tried.
+/// Seeds on guide lines, from the middle of each: lines along them come first. All places are
+/// tried, for guides that are bent more than lines can be, and so need several.
+void seed_on_guides(const LaidGuides& guides, std::vector<Seed>& seeds) {
+  const auto add = [&](Index piece) {
+    Seed seed;
+    seed.face = guides.face[piece];
+    seed.barycentric = guides.barycentric[piece].cwiseMax(1e-6);
+    seed.barycentric /= seed.barycentric.sum();
+    seed.direction = guides.step[piece];
+    seeds.push_back(seed);
+  };
+  for (Index g = 0; g < guides.line_count(); ++g) {
+    add((guides.offsets[g] + guides.offsets[g + 1]) / 2);
+  }
+  for (Index piece = 0; piece < guides.piece_count(); ++piece) add(piece);
+}
+
+/// Seeds on guides, at corners, along feature and boundary lines, and at random, in the order to be
+/// tried.
 std::vector<Seed> first_seeds(const TraceDomain& domain, const std::vector<BarrierLine>& barriers,
                               const std::vector<std::uint8_t>& flags, std::int64_t random_seed) {
   std::vector<Seed> seeds;
+  seed_on_guides(domain.field.guides, seeds);
   seed_at_corners(domain, flags, seeds);
   for (const BarrierLine& line : barriers) seed_along(domain, line, seeds);
   const std::vector<Seed> anisotropic = random_seeds(domain, random_seed);

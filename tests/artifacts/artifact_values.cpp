@@ -93,6 +93,19 @@ QuadMesh make_quads(const TriMesh& mesh, Numbers& numbers) {
   return quads;
 }
 
+LaidGuides make_guides(const TriMesh& mesh, Numbers& numbers) {
+  LaidGuides guides;
+  for (const Index count : {1, 5, 30}) {
+    for (Index i = 0; i < count; ++i) {
+      guides.face.push_back((11 * i + count) % mesh.face_count());
+      guides.barycentric.push_back(numbers.vector());
+      guides.step.push_back(numbers.vector());
+    }
+    guides.offsets.push_back(static_cast<Index>(guides.face.size()));
+  }
+  return guides;
+}
+
 TensorPart make_part(const TriMesh& mesh, Numbers& numbers) {
   TensorPart part;
   part.mesh_id = mesh.id;
@@ -148,7 +161,9 @@ bool same(const PrincipalField& a, const PrincipalField& b) {
   return a.mesh_id == b.mesh_id && same(a.normal, b.normal) && same(a.t_min, b.t_min) &&
          same(a.k_min, b.k_min) && same(a.k_max, b.k_max) && same(a.cross, b.cross) &&
          same(a.wedge_confidence, b.wedge_confidence) &&
-         same(a.face_confidence, b.face_confidence) && a.cross_extended == b.cross_extended;
+         same(a.face_confidence, b.face_confidence) && a.cross_extended == b.cross_extended &&
+         same(a.guides.offsets, b.guides.offsets) && same(a.guides.face, b.guides.face) &&
+         same(a.guides.barycentric, b.guides.barycentric) && same(a.guides.step, b.guides.step);
 }
 
 bool same(const LineSet& a, const LineSet& b) {
@@ -196,6 +211,7 @@ Values make_values() {
   values.size = {values.mesh.id, values.lines.spacing_along_max, values.lines.spacing_along_min};
   for (double& d : values.size.along) d += 5e-324;  // never zero
   for (double& d : values.size.across) d += 5e-324;
+  values.field.guides = make_guides(values.mesh, numbers);
   return values;
 }
 

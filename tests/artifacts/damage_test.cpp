@@ -145,6 +145,10 @@ TEST_F(Damage, IndicesOutOfRangeAndNumbersThatAreNoneAreRefused) {
   refuses(ArtifactKind::mesh, "/mesh/is_corner", 2, H5T_NATIVE_INT32, 2);
   refuses(ArtifactKind::tensor, "/tensor/tensor", 4, H5T_NATIVE_DOUBLE, nan);
   refuses(ArtifactKind::field, "/field/k_min", 4, H5T_NATIVE_DOUBLE, 1 / 0.0);
+  refuses(ArtifactKind::field, "/field/guide_face", 4, H5T_NATIVE_INT32, values.mesh.face_count());
+  refuses(ArtifactKind::field, "/field/guide_offsets", 1, H5T_NATIVE_INT32, 0);
+  refuses(ArtifactKind::field, "/field/guide_step", 4, H5T_NATIVE_DOUBLE, nan);
+  refuses(ArtifactKind::field, "/field/guide_barycentric", 4, H5T_NATIVE_DOUBLE, nan);
   refuses(ArtifactKind::lines, "/lines/offsets", 1, H5T_NATIVE_INT32, -4);
   refuses(ArtifactKind::lines, "/lines/lambda", 1, H5T_NATIVE_DOUBLE, 1.0);
   refuses(ArtifactKind::lines, "/lines/halfedge", 1, H5T_NATIVE_INT32, -1);

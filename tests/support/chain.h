@@ -17,12 +17,13 @@ struct Prepared {
 };
 
 inline Prepared prepare(const PolyMesh& soup, const TensorOptions& tensor = {},
-                        const SmoothOptions& smooth = {}, const ImportOptions& import = {}) {
+                        const SmoothOptions& smooth = {}, const ImportOptions& import = {},
+                        const GuideLines* guides = nullptr) {
   SilentObserver observer;
   Prepared prepared;
   prepared.mesh = import_mesh(soup, import, observer).mesh;
   const TensorField field = estimate_tensors(prepared.mesh, tensor, observer).field;
-  prepared.field = smooth_tensors(prepared.mesh, field, smooth, observer).field;
+  prepared.field = smooth_tensors(prepared.mesh, field, smooth, observer, guides).field;
   return prepared;
 }
 

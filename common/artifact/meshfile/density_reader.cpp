@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "common/artifact/meshfile/mapped_file.h"
 #include "common/artifact/meshfile/ply_header.h"
+#include "common/artifact/meshfile/ply_row.h"
 #include "common/artifact/meshfile/ply_values.h"
 #include "common/core/error.h"
 
@@ -17,50 +17,29 @@ using namespace meshfile;
 
 constexpr const char* kProperty = "density";
 
-/// Reads a row of values. \param wanted  receives the property of that index; -1: none
-template <class Source>
-bool read_row(Source& source, const PlyElement& element, std::ptrdiff_t wanted, double& value) {
-  if (!source.begin_row()) return false;
-  for (std::size_t p = 0; p < element.properties.size(); ++p) {
-    const PlyProperty& property = element.properties[p];
-    std::int64_t count = 1;
-    if (property.is_list && !(source.integer(property.count_type, count) && count >= 0)) {
-      return false;
-    }
-    if (static_cast<std::ptrdiff_t>(p) == wanted) {
-      if (!source.real(property.type, value)) return false;
-    } else if (!source.skip(property.type, count)) {
-      return false;
-    }
-  }
-  source.end_row();
-  return true;
-}
-
 template <class Source>
 std::vector<double> read_vertices(Source source, const PlyHeader& header) {
   for (const PlyElement& element : header.elements) {
-    std::ptrdiff_t wanted = -1;
+    std::vector<std::size_t> wanted;
     if (element.name == "vertex") {
-      const auto found = std::find_if(element.properties.begin(), element.properties.end(),
-                                      [](const PlyProperty& p) { return p.name == kProperty; });
-      if (found == element.properties.end() || found->is_list) break;
-      wanted = found - element.properties.begin();
+      const auto column = number_column(element, kProperty);
+      if (!column) break;
+      wanted = {*column};
     }
     std::vector<double> values;
     for (std::uint64_t row = 0; row < element.count; ++row) {
       double value = 0;
-      if (!read_row(source, element, wanted, value)) {
+      if (!read_row(source, element, wanted, {&value, 1})) {
         throw InputError(fmt::format("ends before vertex {} of {}", row, element.count));
       }
-      if (wanted < 0) continue;
+      if (wanted.empty()) continue;
       if (!(value > 0) || !std::isfinite(value)) {
         throw InputError(fmt::format(
             "has the density {} at vertex {}; it must be a positive number", value, row));
       }
       values.push_back(value);
     }
-    if (wanted >= 0) return values;
+    if (!wanted.empty()) return values;
   }
   throw InputError(fmt::format("has no vertex property '{}'", kProperty));
 }

@@ -79,7 +79,7 @@ class CrossOnATube : public ::testing::Test {
     field_.t_min[w] = std::cos(angle) * field_.t_min[w] + std::sin(angle) * across;
   }
   void extend() {
-    extend_cross_field(mesh_, wedge_graph(mesh_), wedge_areas(mesh_), kStiffness, field_);
+    extend_cross_field(mesh_, wedge_graph(mesh_), wedge_areas(mesh_), kStiffness, {}, field_);
   }
   [[nodiscard]] double error(Index w) const { return angle_to_cross(field_, w, Vec3::UnitZ()); }
 
