@@ -146,6 +146,7 @@ class Reader {
       for (const YamlView::Entry& entry : models.entries("models by name")) read_model(entry);
     }
     if (description_.models.empty()) models.fail("there is no model");
+    check_side_inputs();
   }
 
   void read_model(const YamlView::Entry& entry) {
@@ -153,7 +154,8 @@ class Reader {
       add_files(entry.key, entry.value.text("a mesh file"), entry.value.place());
       return;
     }
-    const auto fields = entry.value.fields("a model", {"file", "sample", "options", "variants"});
+    const auto fields =
+        entry.value.fields("a model", {"file", "sample", "inputs", "options", "variants"});
     if (fields.count("file") == fields.count("sample")) {
       entry.place.fail("a model has either a 'file' or a 'sample'");
     }
@@ -168,8 +170,37 @@ class Reader {
       }
     }
     ModelEntry& model = description_.models.back();
+    if (fields.count("inputs")) read_inputs(fields.at("inputs"), model);
     if (fields.count("options")) append_settings(fields.at("options"), model.settings);
     if (fields.count("variants")) model.variants = variant_names(fields.at("variants"));
+  }
+
+  /// Files beside the mesh, under names that rules ask for.
+  void read_inputs(const YamlView& view, ModelEntry& model) const {
+    std::vector<std::string> names;
+    for (const SideInput& input : side_inputs(description_.rules)) names.push_back(input.name);
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    for (const auto& [name, value] : view.fields("inputs of a model", names)) {
+      const fs::path file = (folder_ / value.text("a file")).lexically_normal();
+      if (!fs::is_regular_file(file)) {
+        value.fail(fmt::format("there is no file '{}'", file.string()));
+      }
+      model.inputs[name] = file;
+    }
+  }
+
+  /// Refuses a wire that was written out and that no model has a file for.
+  void check_side_inputs() const {
+    for (const SideInput& input : side_inputs(description_.rules)) {
+      if (input.name == input.port) continue;  // as usual, for those models that have one
+      const auto has = [&](const ModelEntry& model) { return model.inputs.count(input.name) != 0; };
+      if (std::any_of(description_.models.begin(), description_.models.end(), has)) continue;
+      input.rule->place.fail(fmt::format(
+          "stage '{}' takes '{}' for its input '{}', but no stage makes it and no model has it "
+          "among its 'inputs'",
+          input.rule->name, input.name, input.port));
+    }
   }
 
   /// Names of variants; the name of an entry with lists stands for all it was expanded to.
@@ -210,7 +241,7 @@ class Reader {
     for (const ModelEntry& other : description_.models) {
       if (other.name == name) place.fail(fmt::format("there are two models '{}'", name));
     }
-    ModelEntry model{name, place, file, {}, {}};
+    ModelEntry model{name, place, file, {}, {}, {}};
     for (const Variant& variant : description_.variants) model.variants.push_back(variant.name);
     description_.models.push_back(std::move(model));
   }

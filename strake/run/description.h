@@ -40,6 +40,8 @@ struct ModelEntry {
   std::filesystem::path file;         ///< absolute; empty: the program makes the model itself
   std::vector<Setting> settings;      ///< of the rule "sample" too, where there is no file
   std::vector<std::string> variants;  ///< names of those that apply
+  /// Further files, absolute, by the name under which rules ask for them: guides, a density ...
+  std::map<std::string, std::filesystem::path> inputs;
 };
 
 /// Settings under a name; several variants of a model share whatever they do not change.

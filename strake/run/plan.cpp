@@ -148,6 +148,7 @@ class Planner {
       faces_ = estimated_faces(ignored ? 0 : static_cast<std::int64_t>(bytes),
                                model.file.extension().string());
     }
+    for (const auto& [name, file] : model.inputs) made[name] = {"", kNoStep, file};
     for (const Rule* rule : wanted_rules()) {
       const std::size_t step = step_for(model_index, *rule, variant, made);
       made[rule->output] = {"", step, {}};
@@ -175,7 +176,9 @@ class Planner {
     for (const Port& port : stage.inputs) {
       const auto source = rule.inputs.find(port.name);
       if (source == rule.inputs.end()) continue;
-      step.inputs.push_back(made.at(source->second));
+      const auto from = made.find(source->second);
+      if (from == made.end()) continue;  // a file that this model does not have
+      step.inputs.push_back(from->second);
       step.inputs.back().port = port.name;
     }
     return share(std::move(step), variant, rule.parts);

@@ -132,7 +132,13 @@ bool fits(PortKind given, PortKind wanted) {
          (given == PortKind::polygons && wanted == PortKind::density);
 }
 
-/// Checks that each input is made by some rule, of the right kind; drops ports left open.
+/// Whether values of a kind are files of the user beside the mesh, which no stage makes.
+bool is_side_file(PortKind kind) {
+  return kind == PortKind::edge_list || kind == PortKind::density || kind == PortKind::guides;
+}
+
+/// Checks that each input is made by some rule, of the right kind, or may be a file of a model;
+/// drops ports left open.
 void check_wires(std::vector<Rule>& rules) {
   std::vector<std::string> artifacts = {kModelArtifact};
   for (const Rule& rule : rules) {
@@ -146,12 +152,13 @@ void check_wires(std::vector<Rule>& rules) {
       const std::string source = rule.inputs.at(port.name);
       const Rule* maker = maker_of(rules, source);
       if (maker == nullptr && source != kModelArtifact) {
-        if (port.required) {
+        const bool is_left_open = source.empty() || source == port.name;
+        if (port.required || !(is_left_open || is_side_file(port.kind))) {
           rule.place.fail(
               fmt::format("stage '{}' needs '{}' for its input '{}', but no stage makes it{}",
                           rule.name, source, port.name, suggestion(source, artifacts)));
         }
-        rule.inputs.erase(port.name);
+        if (!is_side_file(port.kind) || source.empty()) rule.inputs.erase(port.name);
         continue;
       }
       const PortKind given =
@@ -167,7 +174,12 @@ void check_wires(std::vector<Rule>& rules) {
 /// Each rule after those it needs, otherwise in the order of the file.
 std::vector<Rule> in_order(std::vector<Rule> rules) {
   std::vector<Rule> ordered;
-  std::set<std::string> made = {kModelArtifact};
+  std::set<std::string> made;  // and what is there from the beginning
+  for (const Rule& rule : rules) {
+    for (const auto& [port, source] : rule.inputs) {
+      if (maker_of(rules, source) == nullptr) made.insert(source);
+    }
+  }
   while (!rules.empty()) {
     const auto ready = std::find_if(rules.begin(), rules.end(), [&](const Rule& rule) {
       return std::all_of(rule.inputs.begin(), rule.inputs.end(),
@@ -213,6 +225,17 @@ std::vector<Rule> read_rules(const YamlView& view, std::vector<Setting>& setting
   if (rules.empty()) view.fail("there is no stage");
   check_wires(rules);
   return in_order(std::move(rules));
+}
+
+std::vector<SideInput> side_inputs(const std::vector<Rule>& rules) {
+  std::vector<SideInput> all;
+  for (const Rule& rule : rules) {
+    for (const auto& [port, source] : rule.inputs) {
+      if (source == kModelArtifact || maker_of(rules, source) != nullptr) continue;
+      all.push_back({&rule, port, source});
+    }
+  }
+  return all;
 }
 
 Setting checked_setting(const std::vector<Rule>& rules, Setting setting, const Place& rule_place) {

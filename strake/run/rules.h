@@ -20,6 +20,15 @@ std::vector<Rule> sample_rules();
 /// \throw UsageError naming the line: unknown program, port, artifact or key; a cycle; ...
 std::vector<Rule> read_rules(const YamlView& view, std::vector<Setting>& settings);
 
+/// A file beside the mesh that a rule takes where a model has it.
+struct SideInput {
+  const Rule* rule = nullptr;
+  std::string port;
+  std::string name;  ///< under which models give it
+};
+/// All of them. \param rules  as the functions above give them; referred to by the result
+std::vector<SideInput> side_inputs(const std::vector<Rule>& rules);
+
 /// A setting whose rule and option exist and whose value is allowed.
 /// \param rule_place  where the rule was named
 /// \throw UsageError naming the place

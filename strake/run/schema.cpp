@@ -105,10 +105,16 @@ Json stages_schema() {
 Json models_schema() {
   const Json file = {{"type", "string"}, {"description", "Mesh file: OBJ, PLY, OFF or STL."}};
   const Json names = {{"type", "array"}, {"items", {{"type", "string"}}}};
+  const Json inputs = {
+      {"type", "object"},
+      {"description",
+       "Files beside the mesh: guides, density, feature-edges, as stages take them."},
+      {"additionalProperties", {{"type", "string"}}}};
   const Json model = {{"type", "object"},
                       {"properties",
                        {{"file", file},
                         {"sample", options_schema(make_stage("sample"), false)},
+                        {"inputs", inputs},
                         {"options", options_by_stage(false)},
                         {"variants", names}}},
                       {"additionalProperties", false}};

@@ -40,6 +40,11 @@ std::vector<std::string> differences(const Provenance& before, const Provenance&
       all.push_back("other content of its input '" + input.role + "'");
     }
   }
+  for (const auto& input : before.inputs) {
+    const bool is_left = std::any_of(now.inputs.begin(), now.inputs.end(),
+                                     [&](const auto& other) { return other.role == input.role; });
+    if (!is_left) all.push_back("without its input " + input.role);
+  }
   return all;
 }
 

@@ -63,6 +63,7 @@ TEST(PipelineSchema, TheCopyForEditorsIsUpToDate) {
 TEST(PipelineSchema, AcceptsEveryForm) {
   EXPECT_TRUE(accepts("{version: 1, models: [a.obj, 'scans/*.ply']}"));
   EXPECT_TRUE(accepts("{version: 1, models: {a: a.obj, b: {sample: {kind: torus, faces: 500}}}}"));
+  EXPECT_TRUE(accepts("{version: 1, models: {a: {file: a.obj, inputs: {guides: lines.obj}}}}"));
   EXPECT_TRUE(accepts("{version: 1, models: [a.obj], options: {trace: {tolerance: 0.1%}}}"));
   EXPECT_TRUE(accepts("{version: 1, models: [a.obj], variants: {s: {trace: {seed: [1, 2]}}}}"));
   EXPECT_TRUE(
@@ -80,6 +81,7 @@ TEST(PipelineSchema, RefusesMistakes) {
   EXPECT_FALSE(accepts("{version: 1}")) << "no models";
   EXPECT_FALSE(accepts("{version: 1, models: [a.obj], modles: []}"));
   EXPECT_FALSE(accepts("{version: 1, models: {a: {flie: a.obj}}}"));
+  EXPECT_FALSE(accepts("{version: 1, models: {a: {file: a.obj, inputs: [lines.obj]}}}"));
   EXPECT_FALSE(accepts("{version: 1, models: [a.obj], options: {trace: {sead: 1}}}"));
   EXPECT_FALSE(accepts("{version: 1, models: [a.obj], options: {trace: {seed: -1}}}"));
   EXPECT_FALSE(accepts("{version: 1, models: [a.obj], options: {smooth: {extension: papier}}}"));

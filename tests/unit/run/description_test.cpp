@@ -68,6 +68,23 @@ const Fault kFaults[] = {
     {"UnknownVariantOfModel",
      "version: 1\nmodels: {x: {file: a.obj, variants: [fin]}}\nvariants: {fine: {}}\n",
      "2:38: ", "did you mean 'fine'"},
+    // Files beside a model.
+    {"UnknownInput", "version: 1\nmodels: {x: {file: a.obj, inputs: {guide: g.obj}}}\n",
+     "2:36: ", "did you mean 'guides'"},
+    {"MissingInput", "version: 1\nmodels: {x: {file: a.obj, inputs: {guides: none.obj}}}\n",
+     "2:44: ", "there is no file"},
+    {"InputsIsText", "version: 1\nmodels: {x: {file: a.obj, inputs: a.obj}}\n",
+     "2:35: ", "'key: value'"},
+    {"InputIsAnArtifact", "version: 1\nmodels: {x: {file: a.obj, inputs: {mesh: a.obj}}}\n",
+     "2:36: ", "unknown key 'mesh'"},
+    {"InputNobodyHas",
+     "version: 1\nmodels: {x: {file: a.obj, inputs: {guides: a.obj}}}\nstages:\n  import: {}\n"
+     "  tensor: {}\n  smooth: {inputs: {guides: flow}}\n  other: {program: smooth, output: f}\n",
+     "6:3: ", "no model has it"},
+    {"UnknownSizes",
+     "version: 1\nmodels: [a.obj]\nstages:\n  import: {}\n  tensor: {}\n  smooth: {}\n"
+     "  trace: {inputs: {size: sizes}}\n",
+     "7:3: ", "no stage makes it"},
     // Options.
     {"OptionsIsAList", "version: 1\nmodels: [a.obj]\noptions: [trace]\n", "3:10: ", "'key: value'"},
     {"UnknownStage", "version: 1\nmodels: [a.obj]\noptions: {trase: {seed: 1}}\n",

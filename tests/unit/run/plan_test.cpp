@@ -57,6 +57,35 @@ TEST_F(PlanTest, AWrittenDefaultIsNoOtherVariant) {
   EXPECT_EQ(plan("models: [a.obj]\nvariants: {x: {}, y: {trace: {seed: 1}}}\n").steps.size(), 6u);
 }
 
+/// A stage takes a file where its model has one, under the name of the port or another.
+TEST_F(PlanTest, StagesTakeTheFilesOfTheirModel) {
+  put("lines.obj", "l 1 2\n");
+  const auto ports = [&](const Plan& made, const std::string& id) {
+    std::string text;
+    for (const StepInput& input : step(made, id).inputs) {
+      text += input.port + (input.file.empty() ? " " : "=" + input.file.filename().string() + " ");
+    }
+    return text;
+  };
+  const std::string models =
+      "models: {x: {file: a.obj, inputs: {guides: lines.obj, density: b.ply}}, y: b.ply}\n";
+  const Plan made = plan(models);
+  EXPECT_EQ(ports(made, "x.import"), "input=a.obj ");
+  EXPECT_EQ(ports(made, "x.smooth"), "mesh tensor guides=lines.obj ");
+  EXPECT_EQ(ports(made, "x.trace"), "mesh field density=b.ply ");
+  EXPECT_EQ(ports(made, "y.smooth"), "mesh tensor ");
+  EXPECT_EQ(ports(made, "y.trace"), "mesh field ");
+  const Plan wired =
+      make_plan(describe("version: 1\nmodels: {x: {file: a.obj, inputs: {flow: lines.obj, "
+                         "feature-edges: b.ply}}}\n"
+                         "stages: {import: , tensor: , smooth: {inputs: {guides: flow}}, "
+                         "trace: {inputs: {density: ~}}}\n"),
+                {});
+  EXPECT_EQ(ports(wired, "x.import"), "input=a.obj feature-edges=b.ply ");
+  EXPECT_EQ(ports(wired, "x.smooth"), "mesh tensor guides=lines.obj ");
+  EXPECT_EQ(ports(wired, "x.trace"), "mesh field ");
+}
+
 TEST_F(PlanTest, ModelsShareNothing) {
   const Plan made = plan("models: {x: a.obj, y: a.obj}\n");
   EXPECT_EQ(made.steps.size(), 12u);
