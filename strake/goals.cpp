@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "common/core/error.h"
 #include "strake/count_search.h"
+#include "strake/density_match.h"
 
 namespace strake {
 namespace {
@@ -17,6 +19,10 @@ constexpr double kCountTolerance = 0.05;
 /// Share of a wanted count that may be missing; more is made up for by dividing cells, which costs
 /// quads.
 constexpr double kMissing = 0.02;
+constexpr std::int64_t kFeedbackRounds = 1;
+/// Share of the way to a density that is enough, and rounds that may be spent on it.
+constexpr double kDensityReached = 0.9;
+constexpr int kMostDensityRounds = 5;
 /// Times that cells are divided and vertices fitted again on the way to a tolerance. Fitting makes
 /// many cells good enough that would be divided without.
 constexpr int kFittedRefinements = 2;
@@ -43,6 +49,33 @@ void feed_back(Session& session, const GoalStages& stages, Counted counted, std:
       static_cast<double>(count_of(session, "quads", counted)) / static_cast<double>(aim);
   const double corrected = std::stod(scale.value()) * std::sqrt(excess);
   scale.parse_into(fmt::format("{}", std::clamp(corrected, scale.min, scale.max)));
+}
+
+/// Feeds errors back until the vertices are as the density wants them, as nearly as they get. Lines
+/// go on where their neighbours are nearer than wanted, so its distances alone do little.
+void follow_density(Session& session, const GoalStages& stages, Counted counted, std::int64_t aim) {
+  Session plain = session;
+  plain.withdraw("density");
+  trace_and_mesh(plain, stages);
+  const DensityMatch match(session.get<TriMesh>("mesh"), session.get<DensityField>("density"),
+                           plain.get<QuadMesh>("quads"));
+  const Option& scale = stages.trace.option("spacing-scale");
+  Session best = session;
+  std::string best_scale;
+  double least_miss = std::numeric_limits<double>::infinity();
+  for (int round = 0;; ++round) {
+    trace_and_mesh(session, stages);
+    const double reached = match.reached(session.get<QuadMesh>("quads"));
+    if (std::abs(reached - 1) < least_miss) {
+      least_miss = std::abs(reached - 1);
+      best = session;
+      best_scale = scale.value();
+    }
+    if (reached >= kDensityReached || round == kMostDensityRounds) break;
+    feed_back(session, stages, counted, aim);
+  }
+  session = best;
+  scale.parse_into(best_scale);
 }
 
 /// Looks for the scale of distances that gives the count. \pre traced and meshed at the present one
@@ -83,11 +116,15 @@ void fit_refined(Session& session, const GoalStages& stages) {
 }  // namespace
 
 std::string meet_count(Session& session, const GoalStages& stages, Counted counted,
-                       std::int64_t wanted, std::int64_t feedback_rounds,
+                       std::int64_t wanted, std::optional<std::int64_t> feedback_rounds,
                        ConsoleObserver& console) {
-  for (std::int64_t round = 0; round < feedback_rounds; ++round) {
-    trace_and_mesh(session, stages);
-    feed_back(session, stages, counted, wanted);
+  if (session.has("density") && !feedback_rounds) {
+    follow_density(session, stages, counted, wanted);
+  } else {
+    for (std::int64_t round = 0; round < feedback_rounds.value_or(kFeedbackRounds); ++round) {
+      trace_and_mesh(session, stages);
+      feed_back(session, stages, counted, wanted);
+    }
   }
   search_scale(session, stages, counted, wanted, console);
   session.keep(stages.trace);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "common/stage/console.h"
@@ -24,11 +25,12 @@ enum class Counted { vertices, faces };
 /// Traces until the result has about the wanted count, with the errors of its cells made even.
 ///
 /// In the first `feedback_rounds` rounds lines are traced again at distances that follow from the
-/// errors measured; then only the scale of all distances changes. Where more than 2 % of the count
-/// are missing in the end the cells that are farthest off are divided.
-/// \return the port of the result
+/// errors measured (by default one, with a density as many as it takes to follow it, up to five);
+/// then only the scale of all distances changes. Where more than 2 % of the count are missing in
+/// the end the cells that are farthest off are divided. \return the port of the result
 std::string meet_count(Session& session, const GoalStages& stages, Counted counted,
-                       std::int64_t wanted, std::int64_t feedback_rounds, ConsoleObserver& console);
+                       std::int64_t wanted, std::optional<std::int64_t> feedback_rounds,
+                       ConsoleObserver& console);
 
 /// Traces once, at the distances that the options of tracing ask for. \return the port of the
 /// result

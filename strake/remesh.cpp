@@ -31,10 +31,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kFeedbackRounds = 1;
-/// Lines go on where their neighbours are nearer than wanted, so one round gives half of a density.
-constexpr std::int64_t kFeedbackRoundsOfDensity = 3;
-
 /// A file beside the mesh, that a stage takes by the port of its name.
 struct SideFile {
   std::string port;
@@ -56,7 +52,7 @@ struct RemeshCommand {
        .target = &feedback_rounds,
        .unit = "",
        .help = "Times that lines are traced again to even out errors, where a count is wanted; 1, "
-               "with a density 3.",
+               "with a density as many as it takes.",
        .min = 0,
        .max = 20}};
   bool no_evaluate = false;
@@ -75,7 +71,6 @@ struct RemeshCommand {
   void add_to(CLI::App& app);
   void check() const;
   [[nodiscard]] std::vector<SideFile> side_files() const;
-  [[nodiscard]] std::int64_t wanted_rounds() const;
   /// How one would say that the result was made in one go.
   [[nodiscard]] Provenance provenance(const std::string& input_digest) const;
   void run();
@@ -133,11 +128,6 @@ std::vector<SideFile> RemeshCommand::side_files() const {
   return given;
 }
 
-std::int64_t RemeshCommand::wanted_rounds() const {
-  return feedback_rounds.value_or(density.path.empty() ? kFeedbackRounds
-                                                       : kFeedbackRoundsOfDensity);
-}
-
 Provenance RemeshCommand::provenance(const std::string& input_digest) const {
   Provenance whole;
   whole.stage = "remesh";
@@ -146,8 +136,8 @@ Provenance RemeshCommand::provenance(const std::string& input_digest) const {
     whole.stage_version += part.stage_version;
     whole.options.insert(whole.options.end(), part.options.begin(), part.options.end());
   }
-  whole.options.push_back(
-      {own_options.front().name, std::to_string(wanted_rounds()), !feedback_rounds});
+  const Option& rounds = own_options.front();
+  whole.options.push_back({rounds.name, rounds.value(), !feedback_rounds});
   whole.inputs = {{"input", input_digest}};
   for (const SideFile& file : side_files()) {
     whole.inputs.push_back({file.port, content_digest(file.path)});
@@ -161,7 +151,7 @@ std::string RemeshCommand::reach_goal(Session& session, ConsoleObserver& console
     const char* name = counted == Counted::vertices ? "vertices" : "faces";
     const std::string wanted = trace.option(name).value();
     if (wanted.empty()) continue;
-    return meet_count(session, stages, counted, std::stoll(wanted), wanted_rounds(), console);
+    return meet_count(session, stages, counted, std::stoll(wanted), feedback_rounds, console);
   }
   const std::string tolerance = trace.option("tolerance").value();
   if (tolerance.empty()) return follow_spacing(session, stages);

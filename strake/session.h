@@ -30,6 +30,10 @@ class Session {
   /// Makes what the port `source` holds available as `port` too, in another form.
   void provide_as(const std::string& port, Value value, const std::string& source);
 
+  /// Takes back what the port was provided with.
+  void withdraw(const std::string& port) { values_.erase(port); }
+  [[nodiscard]] bool has(const std::string& port) const { return values_.count(port) != 0; }
+
   /// Runs a stage, stores its output in place of an older one, and says its warnings.
   /// \return its report
   const Report& run(const Stage& stage);

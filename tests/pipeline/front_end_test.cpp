@@ -72,15 +72,20 @@ TEST_F(FrontEnd, FollowsADensity) {
                      "\nproperty float density\nend_header\n";
   for (const Vec3& p : sphere.positions) text += p.z() > 0 ? "2\n" : "1\n";
   put("density.ply", text);
-  must(
-      "strake remesh sphere.ply -q --no-evaluate -o out.obj --vertices 1500 --density density.ply");
-  double upper = 0;
-  double lower = 0;
-  for (const Vec3& p : read("out.obj").positions) (p.z() > 0 ? upper : lower) += 1;
-  EXPECT_NEAR(upper / lower, 2, 0.3);  // lines go on a little into the other half
+  for (const char* vertices : {"800", "1500"}) {
+    must(std::string("strake remesh sphere.ply -q --no-evaluate -o out.obj --density density.ply "
+                     "--vertices ") +
+         vertices);
+    double upper = 0;
+    double lower = 0;
+    for (const Vec3& p : read("out.obj").positions) (p.z() > 0 ? upper : lower) += 1;
+    EXPECT_NEAR(upper / lower, 2, 0.3) << vertices;  // lines go on a little into the other half
+  }
   put("density.ply",
       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float density\nend_header\n1\n");
   must_fail(4, "strake remesh torus.ply -o bad.obj --density density.ply",
+            "the density has 1 vertices");
+  must_fail(4, "strake remesh torus.ply -o bad.obj --vertices 500 --density density.ply",
             "the density has 1 vertices");
   must_fail(3, "strake remesh torus.ply -o bad.obj --density torus.ply",
             "no vertex property 'density'");
