@@ -11,7 +11,7 @@ namespace {
 /// Distance of samples inside large faces, in line distances.
 constexpr double kSampleDistance = 0.8;
 constexpr int kMostSamplesPerFace = 20000;
-constexpr double kRounding = 1e-9;     ///< of distances between rows
+constexpr double kRounding = 1e-9;     ///< of places along a face
 constexpr std::uint8_t kBothArms = 3;  ///< the bits of arm_bit
 
 /// Bit of the arm of a cross that a direction follows.
@@ -20,12 +20,14 @@ std::uint8_t arm_bit(const Vec3& arm, const Vec3& flat) {
   return c * c >= 0.5 * flat.squaredNorm() ? 1 : 2;
 }
 
-/// How the samples of a face lie: in rows parallel to its longest edge.
+/// How the samples of a face lie: in rows parallel to its longest edge, in order along it.
 struct Rows {
   int base = 0;  ///< corner where the longest edge starts
   double longest = 0;
   Vec3 origin;  ///< the position of that corner
-  Vec3 up;      ///< unit, from row to row
+  Vec3 along;   ///< unit, of the edge
+
+  [[nodiscard]] double place(const Vec3& p) const { return along.dot(p - origin); }
 };
 
 Rows rows_of(const TriMesh& mesh, Index face) {
@@ -39,9 +41,7 @@ Rows rows_of(const TriMesh& mesh, Index face) {
     rows.base = i;
   }
   rows.origin = p[rows.base];
-  const Vec3 along = (p[(rows.base + 1) % 3] - rows.origin) / rows.longest;
-  const Vec3 top = p[(rows.base + 2) % 3] - rows.origin;
-  rows.up = (top - top.dot(along) * along).normalized();
+  rows.along = (p[(rows.base + 1) % 3] - rows.origin) / rows.longest;
   return rows;
 }
 
@@ -99,6 +99,10 @@ void Coverage::sample_face(Index face) {
     }
     up += next_row;
   }
+  std::stable_sort(points_.begin() + offsets_.back(), points_.end(),
+                   [&](const Point& p, const Point& q) {
+                     return rows.place(p.position) < rows.place(q.position);
+                   });
 }
 
 void Coverage::mark(const std::vector<Index>& faces, const Vec3& point, const Vec3& direction,
@@ -116,16 +120,13 @@ void Coverage::mark(const std::vector<Index>& faces, const Vec3& point, const Ve
     }
     if (offsets_[f] == offsets_[f + 1]) continue;
     const Rows rows = rows_of(mesh, f);
-    const double middle = rows.up.dot(point - rows.origin);
+    const double middle = rows.place(point);
     const auto first = points_.begin() + offsets_[f];
     const auto last = points_.begin() + offsets_[f + 1];
     const double margin = (1 + kRounding) * distance;
-    for (auto p = std::partition_point(first, last,
-                                       [&](const Point& q) {
-                                         return rows.up.dot(q.position - rows.origin) <
-                                                middle - margin;
-                                       });
-         p != last && rows.up.dot(p->position - rows.origin) <= middle + margin; ++p) {
+    const auto is_before = [&](const Point& q) { return rows.place(q.position) < middle - margin; };
+    for (auto p = std::partition_point(first, last, is_before);
+         p != last && rows.place(p->position) <= middle + margin; ++p) {
       if ((p->position - point).squaredNorm() > limit) continue;
       p->marks |= arm_bit(p->arm, direction);
     }

@@ -9,6 +9,8 @@
 namespace strake {
 namespace {
 
+/// Edges that one step may cross: around a needle it would go on for ever.
+constexpr int kMostCrossings = 4096;
 const double kFlattestCrossing = std::sin(20 * M_PI / 180);  ///< with a feature line
 
 double cross2(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -117,7 +119,7 @@ bool LineWalker::pass_feature(LineHead& head, Index h, HalfLine& half) {
 
 bool LineWalker::advance(LineHead& head, Vec2 displacement, HalfLine& half) {
   const TriMesh& mesh = domain_.mesh;
-  for (;;) {
+  for (int crossings = 0; crossings < kMostCrossings; ++crossings) {
     auto exit = find_exit(head.context.chart, head.point, displacement, head.closed);
     if (!exit) {
       head.point += displacement;
@@ -159,6 +161,7 @@ bool LineWalker::advance(LineHead& head, Vec2 displacement, HalfLine& half) {
     displacement *= 1 - exit->step;
     enter(head, h);
   }
+  return true;
 }
 
 }  // namespace strake

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Remeshes the collection of test models and judges every result with an independent meter.
 
-    check_corpus.py SUITE --strake PROGRAM [--models FOLDER] [--meter PROGRAM] [NAME...]
+    check_corpus.py SUITE --strake PROGRAM [--models FOLDER] [--meter PROGRAM] [--count N] [NAME...]
 
 Suites:
   default  every manifold model of scan, cad, genus and open, with strake's defaults: the same
@@ -9,6 +9,7 @@ Suites:
   tenth    the same with a tenth of the input's vertices wanted, which must be met within 10 %
   quality  quads and distance at five published settings
   dirty    every broken file: a sound result, or a refusal that says why; never a crash
+  adversarial  the same for generated meshes: --count of them, from --first on
 
 Prints a table; returns 0 where all is well, 1 where a model fails, 77 where models or meter are
 missing (with environment CI that is a failure too).
@@ -19,12 +20,14 @@ import concurrent.futures
 import json
 import os
 import pathlib
+import shutil
 import signal
 import subprocess
 import sys
 import tempfile
 import time
 
+import adversary
 import models
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -40,7 +43,7 @@ MOST_CONCAVE_PERCENT = 0.5
 COUNT_TOLERANCE = 0.1
 # Seconds of processor time for one model, which other work on the machine does not change; and how
 # much longer it may take by the clock.
-TIME_LIMIT = {"default": 300, "tenth": 300, "quality": 300, "dirty": 60}
+TIME_LIMIT = {"default": 300, "tenth": 300, "quality": 300, "dirty": 60, "adversarial": 20}
 CLOCK_FACTOR = 5
 
 # Model, wanted vertices. The RMS distance shall not be above that of Instant Meshes without crease mode.
@@ -57,6 +60,8 @@ LEAST_QUAD_PERCENT_BY_AREA = 75
 
 # Exit codes of strake that refuse an input: bad file, and nothing that can be used.
 REFUSALS = (3, 4)
+# Suites whose inputs may be refused, and are no measure for a result.
+BROKEN = ("dirty", "adversarial")
 
 
 class Case:
@@ -115,7 +120,7 @@ class Checker:
         elif case.exit == 0:
             self.measure(case, output)
             self.judge(case)
-        elif self.suite == "dirty" and case.exit in REFUSALS:
+        elif self.suite in BROKEN and case.exit in REFUSALS:
             if not case.message:
                 case.faults.append("refused without a message")
             if output.exists():
@@ -144,7 +149,7 @@ class Checker:
         case.seconds = time.monotonic() - started
 
     def measure(self, case, output):
-        if self.suite == "dirty":  # a broken reference is no measure
+        if self.suite in BROKEN:  # a broken reference is no measure
             arguments = [output, output, "--no-distance"]
         else:
             samples = "200000" if self.suite == "quality" else "1000"
@@ -170,7 +175,7 @@ class Checker:
             case.faults.append(f"{result['face_sides']['more']} faces with more than 5 sides")
         if not result["faces"]:
             case.faults.append("no faces")
-        if self.suite == "dirty":
+        if self.suite in BROKEN:
             return
         self.judge_against_input(case, result)
         if self.suite == "quality":
@@ -206,6 +211,11 @@ class Checker:
                                    "is wanted")
 
 
+def generated(arguments, scratch):
+    return [Case(adversary.write_mesh(seed, scratch))
+            for seed in range(arguments.first, arguments.first + arguments.count)]
+
+
 def cases_of(suite, folder):
     if suite == "quality":
         return [Case(folder / name, wanted,
@@ -225,6 +235,9 @@ def parse_arguments():
     parser.add_argument("--strake", required=True, help="the program to test")
     parser.add_argument("--models",
                         help="default: $STRAKE_MODELS, else ../shared/models beside the source tree")
+    parser.add_argument("--count", type=int, default=2000, help="generated meshes")
+    parser.add_argument("--first", type=int, default=0, help="seed of the first of them")
+    parser.add_argument("--keep", type=pathlib.Path, help="folder for generated meshes that failed")
     parser.add_argument("--meter", default=os.environ.get("STRAKE_METER"),
                         help="default: $STRAKE_METER, else what scripts/build_meter builds")
     return parser.parse_args()
@@ -244,21 +257,32 @@ def main():
     if not meter.exists():
         return missing("there is no meter: run scripts/build_meter, or set STRAKE_METER to it")
 
-    cases = cases_of(arguments.suite, folder)
-    if arguments.names:
-        cases = [case for case in cases if any(name in case.name for name in arguments.names)]
-    if not cases:
-        print("check_corpus: error: no model of that name", file=sys.stderr)
-        return 2
+    with tempfile.TemporaryDirectory(prefix="strake-corpus-") as scratch:
+        scratch = pathlib.Path(scratch)
+        if arguments.suite == "adversarial":
+            cases = generated(arguments, scratch)
+        else:
+            cases = cases_of(arguments.suite, folder)
+        if arguments.names:
+            cases = [case for case in cases if any(name in case.name for name in arguments.names)]
+        if not cases:
+            print("check_corpus: error: no model of that name", file=sys.stderr)
+            return 2
+        return check_all(cases, Checker(arguments.suite, arguments.strake, meter, scratch), arguments.keep)
+
+
+def check_all(cases, checker, keep):
     print(HEADER)
     started = time.monotonic()
-    with tempfile.TemporaryDirectory(prefix="strake-corpus-") as scratch:
-        checker = Checker(arguments.suite, arguments.strake, meter, pathlib.Path(scratch))
-        with concurrent.futures.ThreadPoolExecutor(PARALLEL) as pool:
-            for case in pool.map(checker.check, cases):
+    with concurrent.futures.ThreadPoolExecutor(PARALLEL) as pool:
+        for case in pool.map(checker.check, cases):
+            if case.faults or checker.suite != "adversarial":
                 print(case.row(), flush=True)
+            if case.faults and keep:
+                shutil.copy(case.path, keep)
     failed = [case for case in cases if case.faults]
-    print(f"{arguments.suite}: {len(cases)} cases, {len(failed)} failed, "
+    refused = sum(case.exit in REFUSALS for case in cases)
+    print(f"{checker.suite}: {len(cases)} cases, {refused} refused, {len(failed)} failed, "
           f"{time.monotonic() - started:.0f} s")
     return 1 if failed else 0
 
