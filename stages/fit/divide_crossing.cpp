@@ -18,8 +18,11 @@ namespace strake::fitting {
 namespace {
 
 constexpr double kLeastAngle = 5 * std::numbers::pi / 180;
-/// What passes through more faces does so however it is divided: sheets on top of each other.
+/// What passes through more faces does so however it is divided: sheets on top of each other. So
+/// does a surface of which more than this share of the faces cross, and more than so many.
 constexpr int kMostCrossings = 8;
+constexpr double kLargestShare = 0.1;
+constexpr std::size_t kFewCrossings = 100;
 /// Distance from a plane, as a share of its size, up to which a face covers the same points however
 /// it is divided.
 constexpr double kFlat = 1e-9;
@@ -42,6 +45,12 @@ class Division {
     const auto pairs = find_crossing_faces(mesh_.positions, triangles_);
     for (const auto& pair : pairs) {
       for (const Index f : pair) ++crossed[f];
+    }
+    const auto faces =
+        static_cast<double>(std::ranges::count_if(crossed, [](int n) { return n > 0; }));
+    if (pairs.size() > kFewCrossings &&
+        faces > kLargestShare * static_cast<double>(crossed.size())) {
+      return 0;
     }
     for (const auto& pair : pairs) {
       for (const Index f : pair) {
