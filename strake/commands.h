@@ -14,6 +14,7 @@ void add_remesh_command(CLI::App& app, Action& chosen);
 void add_info_command(CLI::App& app, Action& chosen);
 void add_check_command(CLI::App& app, Action& chosen);
 void add_sample_command(CLI::App& app, Action& chosen);
+void add_report_command(CLI::App& app, Action& chosen);
 void add_run_command(CLI::App& app, Action& chosen);
 void add_submit_command(CLI::App& app, Action& chosen);
 void add_status_command(CLI::App& app, Action& chosen);

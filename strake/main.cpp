@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
     strake::add_info_command(app, chosen);
     strake::add_check_command(app, chosen);
     strake::add_sample_command(app, chosen);
+    strake::add_report_command(app, chosen);
     strake::add_run_command(app, chosen);
     strake::add_submit_command(app, chosen);
     strake::add_status_command(app, chosen);

@@ -1,5 +1,6 @@
 #include "strake/session.h"
 
+#include <chrono>
 #include <utility>
 
 #include "common/artifact/artifact.h"
@@ -52,7 +53,10 @@ const Report& Session::run(const Stage& stage) {
     const auto entry = values_.find(port.name);
     if (entry != values_.end()) inputs.add(port.name, {entry->second.value, entry->second.origin});
   }
+  const auto begin = std::chrono::steady_clock::now();
   StageResult result = run_stage(stage, inputs, *console_);
+  seconds_[stage.name] +=
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   for (const std::string& warning : result.report.warnings()) {
     console_->say(stage.name + ": warning: " + warning);
   }
@@ -74,6 +78,7 @@ void Session::keep(const Stage& stage) {
     entry.digest = content_digest(path);
   }
   write_text(folder_ / (stage.name + ".json"), record_json(record));
+  write_text(folder_ / "times.json", times_json(seconds_));
 }
 
 }  // namespace strake

@@ -37,7 +37,9 @@ class Session {
   /// Runs a stage, stores its output in place of an older one, and says its warnings.
   /// \return its report
   const Report& run(const Stage& stage);
-  /// Writes the last output and report of the stage to the folder to keep, if there is one.
+  /// Writes the last output and report of the stage to the folder to keep, if there is one, and the
+  /// times of all stages to its times.json: reports and artifacts hold none, for equal work to give
+  /// equal bytes.
   void keep(const Stage& stage);
 
   template <class T>
@@ -62,6 +64,7 @@ class Session {
   std::filesystem::path folder_;
   std::map<std::string, Entry> values_;
   std::vector<StageRecord> records_;
+  std::map<std::string, double> seconds_;  // by stage, all its runs together
 };
 
 }  // namespace strake

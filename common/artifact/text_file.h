@@ -11,4 +11,7 @@ namespace strake {
 void write_text(const std::filesystem::path& path, const std::string& text,
                 Flush flush = Flush::yes);
 
+/// All of a file. \throw InputError naming the file where it cannot be read
+std::string read_text(const std::filesystem::path& path);
+
 }  // namespace strake

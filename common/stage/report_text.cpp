@@ -55,6 +55,10 @@ std::string records_json(const std::vector<StageRecord>& records) {
   return dump(json);
 }
 
+std::string times_json(const std::map<std::string, double>& seconds) {
+  return dump({{"seconds", seconds}});
+}
+
 std::string value_text(const Report::Value& value) {
   if (const auto* number = std::get_if<double>(&value)) return fmt::format("{:.6g}", *number);
   if (const auto* text = std::get_if<std::string>(&value)) return *text;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,6 +22,9 @@ std::string record_json(const StageRecord& record);
 
 /// Records of a whole pipeline as a JSON object by stage name.
 std::string records_json(const std::vector<StageRecord>& records);
+
+/// Seconds that stages took, by their names: {"seconds": {...}}.
+std::string times_json(const std::map<std::string, double>& seconds);
 
 /// One "key: value" line per entry, in order, values aligned.
 std::string report_text(const Report& report);

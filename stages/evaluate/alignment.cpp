@@ -73,13 +73,6 @@ double folded_angle(const Vec2& direction, const Vec2& arm) {
   return std::atan2(std::min(along, across), std::max(along, across)) * 180 / std::numbers::pi;
 }
 
-/// What one edge contributes.
-struct EdgeAngles {
-  double length = 0;
-  double principal_deg = -1;  // negative: not judged
-  double cross_deg = -1;
-};
-
 /// Length-weighted angles.
 class AngleList {
  public:
@@ -140,9 +133,10 @@ void require_fit(const TriMesh& mesh, const PrincipalField& field) {
 
 }  // namespace
 
-void report_alignment(const TriMesh& reference, const MeasuredSurface& reference_surface,
-                      const PrincipalField& field, const PolyMesh& candidate,
-                      const PolyEdges& edges, Report& report) {
+std::vector<EdgeAngles> measure_edge_angles(const TriMesh& reference,
+                                            const MeasuredSurface& reference_surface,
+                                            const PrincipalField& field, const PolyMesh& candidate,
+                                            const PolyEdges& edges) {
   require_fit(reference, field);
   std::vector<EdgeAngles> measured(edges.vertices.size());
   tbb::parallel_for(std::size_t{0}, measured.size(), [&](std::size_t e) {
@@ -161,7 +155,14 @@ void report_alignment(const TriMesh& reference, const MeasuredSurface& reference
     }
     if (!here.cross.isZero(0)) angles.cross_deg = folded_angle(unit, here.cross);
   });
+  return measured;
+}
 
+void report_alignment(const TriMesh& reference, const MeasuredSurface& reference_surface,
+                      const PrincipalField& field, const PolyMesh& candidate,
+                      const PolyEdges& edges, Report& report) {
+  const std::vector<EdgeAngles> measured =
+      measure_edge_angles(reference, reference_surface, field, candidate, edges);
   AngleList all;
   AngleList quads;
   AngleList cross;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "common/core/fields.h"
 #include "common/core/poly_mesh.h"
 #include "common/core/report.h"
@@ -8,6 +10,20 @@
 #include "stages/evaluate/measured_surface.h"
 
 namespace strake::evaluation {
+
+/// How one edge of a candidate lies to the directions of a field at its midpoint, each angle folded
+/// into 0 to 45 degrees; negative where it is not judged.
+struct EdgeAngles {
+  double length = 0;
+  double principal_deg = -1;
+  double cross_deg = -1;
+};
+
+/// [E] the angles that `report_alignment` reports on, by the same rules.
+std::vector<EdgeAngles> measure_edge_angles(const TriMesh& reference,
+                                            const MeasuredSurface& reference_surface,
+                                            const PrincipalField& field, const PolyMesh& candidate,
+                                            const PolyEdges& edges);
 
 /// Reports "alignment.*": the angle, folded into 0 to 45 degrees, between each edge of the
 /// candidate and the nearest direction of a field at the edge's midpoint, weighted with edge

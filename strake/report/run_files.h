@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/core/fields.h"
+#include "common/core/line_set.h"
+#include "common/core/poly_mesh.h"
+#include "common/core/tri_mesh.h"
+
+namespace strake::report {
+
+/// What a folder holds of one run.
+struct RunFiles {
+  std::string name;  ///< of the folder
+  TriMesh mesh;
+  QuadMesh quads;  ///< the last result: one that no other in the folder was made from
+  std::optional<PrincipalField> field;
+  std::optional<LineSet> lines;
+  std::string field_content;                   ///< names the field; "" where there is none
+  std::vector<nlohmann::ordered_json> stages;  ///< records, in the order they were run
+  nlohmann::ordered_json seconds;              ///< by stage; null where the folder does not say
+  std::vector<std::string> missing;            ///< sentences about what the report goes without
+};
+
+/// Reads the artifacts and stage reports of a folder, whatever their names: what `strake remesh
+/// --keep` leaves, or files that a pipeline or the stages' programs wrote there.
+///
+/// Mesh and quads have to be there. Of several artifacts of a kind that one is taken which the
+/// result was made from.
+/// \throw InputError naming folder, kind and remedy where one is missing, ambiguous or damaged;
+///        PreconditionError where they belong to different meshes
+RunFiles read_run(const std::filesystem::path& folder);
+
+}  // namespace strake::report

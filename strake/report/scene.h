@@ -1,0 +1,33 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "common/core/fields.h"
+#include "common/core/line_set.h"
+#include "common/core/poly_mesh.h"
+#include "common/core/tri_mesh.h"
+#include "common/geometry/cell_error/cell_error.h"
+#include "strake/report/blocks.h"
+
+/// What the viewer draws, as JSON that refers to blocks. docs/report.md lists the members.
+namespace strake::report {
+
+/// Input surfaces with more faces are drawn decimated.
+inline constexpr std::size_t kMostFaces = 150000;
+
+/// The input surface, with curvature, directions and confidence where there is a field.
+/// \param field  of this mesh; nullptr: the members "curvature", "directions" are left out
+nlohmann::ordered_json surface_scene(const TriMesh& mesh, const PrincipalField* field,
+                                     std::size_t most_faces, Blocks& blocks);
+
+/// The result, with each face's sides and largest distance to the surface.
+/// \param errors  of `quads` against `mesh`
+nlohmann::ordered_json result_scene(const TriMesh& mesh, const QuadMesh& quads,
+                                    const ErrorMap& errors, Blocks& blocks);
+
+/// The lines, each thinned out to `kLineDeviation` of the diagonal.
+nlohmann::ordered_json line_scene(const TriMesh& mesh, const LineSet& lines, Blocks& blocks);
+
+inline constexpr double kLineDeviation = 5e-5;
+
+}  // namespace strake::report

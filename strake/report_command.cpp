@@ -1,0 +1,76 @@
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/artifact/text_file.h"
+#include "common/core/error.h"
+#include "strake/commands.h"
+#include "strake/report/page.h"
+#include "strake/report/viewer.h"
+
+namespace strake {
+namespace {
+
+struct ReportCommand {
+  std::vector<std::string> folders;
+  std::string output;
+  std::int64_t threads = 0;
+};
+
+void require_viewer() {
+  if (!report::viewer_page().empty()) return;
+  throw PreconditionError(
+      "this program was built without the viewer that reports need; run 'scripts/setup --all' (or "
+      "install nodejs and npm), then scripts/build_viewer, and build strake again");
+}
+
+int make_report(const ReportCommand& command) {
+  if (std::filesystem::path(command.output).extension() != ".html") {
+    throw UsageError("--output '" + command.output + "': the name of a report ends in .html");
+  }
+  require_viewer();
+  std::vector<report::RunFiles> runs;
+  for (const std::string& folder : command.folders) runs.push_back(report::read_run(folder));
+  const std::string page = report::fill_page(report::viewer_page(), report::describe_runs(runs));
+  write_text(command.output, page);
+  fmt::print("{}: {} run{}, {:.1f} MB\n", command.output, runs.size(), runs.size() == 1 ? "" : "s",
+             static_cast<double>(page.size()) / 1e6);
+  return 0;
+}
+
+}  // namespace
+
+void add_report_command(CLI::App& app, Action& chosen) {
+  CLI::App* command = app.add_subcommand(
+      "report", "Show runs in one HTML file: surfaces, curvature, lines, results, figures.");
+  const auto wanted = std::make_shared<ReportCommand>();
+  command
+      ->add_option("folders", wanted->folders,
+                   "folders of runs, as 'strake remesh --keep' leaves them; several are compared")
+      ->type_name("FOLDER")
+      ->required();
+  command->add_option("-o,--output", wanted->output, "page to write, .html")
+      ->type_name("FILE")
+      ->required();
+  add_options(*command,
+              {{.name = "threads",
+                .target = &wanted->threads,
+                .unit = "",
+                .help = "Threads to use; 0 takes every processor. Never changes a result.",
+                .min = 0,
+                .max = 4096,
+                .affects_result = false}});
+  command->callback([wanted, &chosen] {
+    chosen = [wanted] {
+      int exit_code = 0;
+      run_with_threads(wanted->threads, [&] { exit_code = make_report(*wanted); });
+      return exit_code;
+    };
+  });
+}
+
+}  // namespace strake

@@ -1,0 +1,168 @@
+// The panel beside the drawing: what each pane shows.
+import { cssColour, endColours, endNames, familyColours, scaleGradient, sideColours } from "./colours.js";
+import { count, el, figure, percent } from "./dom.js";
+import { facesShown } from "./numbers.js";
+import { curvatureEnd, distanceEnd, inputColourings, resultColourings } from "./tints.js";
+
+/** Builds the panel; call `refresh` after the view has changed elsewhere. */
+export class Controls {
+  constructor(runs, view, changed) {
+    this.runs = runs;
+    this.view = view;
+    this.changed = changed;
+    this.root = el("aside", { class: "controls", "aria-label": "What is shown" });
+    this.refresh();
+  }
+
+  get pane() {
+    return this.view.panes[this.view.edited];
+  }
+
+  set(change) {
+    change();
+    this.refresh();
+    this.changed();
+  }
+
+  refresh() {
+    const focus = document.activeElement?.dataset?.key;
+    this.root.replaceChildren(
+      ...[this.compare(), this.which(), this.surface(), this.lines(), this.directions(), this.section(), this.notes()].filter(Boolean),
+    );
+    if (focus) this.root.querySelector(`[data-key="${focus}"]`)?.focus();
+  }
+
+  /** Buttons of which one is chosen. */
+  choice(label, options, chosen, choose) {
+    return el("div", { class: "choice", role: "group", "aria-label": label },
+      options.map(([value, text, key]) =>
+        el("button", { "aria-pressed": String(value === chosen), "data-key": `${label} ${value}`, title: key ? `${text} (${key})` : text, onclick: () => this.set(() => choose(value)) }, text)));
+  }
+
+  toggle(name, text, { colour, detail, key } = {}) {
+    const { layers } = this.pane;
+    return el("label", { class: "toggle", title: key && `${text} (${key})` },
+      el("input", { type: "checkbox", checked: layers.has(name), "data-key": `layer ${name}`, onchange: () => this.set(() => flip(layers, name)) }),
+      colour && el("i", { class: "swatch line", style: `background:${cssColour(colour)}` }),
+      el("span", {}, text), detail !== undefined && el("small", {}, detail));
+  }
+
+  compare() {
+    const { view } = this;
+    const box = el("section", {}, this.choice("Compare", [["one", "One view"], ["side", "Side by side", "S"], ["wipe", "Wipe", "W"]], view.compare, (value) => {
+      view.compare = value;
+      if (value === "one") view.edited = 0;
+    }));
+    if (view.compare !== "one") {
+      box.append(this.choice("View to set", [[0, "Left view"], [1, "Right view"]], view.edited, (value) => (view.edited = value)));
+    }
+    return box;
+  }
+
+  which() {
+    if (this.runs.length < 2) return null;
+    const { pane } = this;
+    return el("section", {}, el("h2", {}, "Run"),
+      el("select", { "data-key": "run", "aria-label": "Run", onchange: (event) => this.set(() => (pane.run = Number(event.target.value))) },
+        this.runs.map((run, i) => el("option", { value: i, selected: i === pane.run }, run.about.name))));
+  }
+
+  surface() {
+    const { pane } = this;
+    const run = this.runs[pane.run];
+    const box = el("section", {}, el("h2", {}, "Surface"),
+      this.choice("Surface", [["input", "Input", "1"], ["result", "Result", "2"], ["none", "None", "0"]], pane.base, (value) => (pane.base = value)));
+    if (pane.base !== "none") {
+      const all = pane.base === "input" ? inputColourings : resultColourings;
+      const hasField = Boolean(run.surface.about.curvature);
+      box.append(el("select", { "data-key": "colour", "aria-label": "Colour", title: "Colour (C)", onchange: (event) => this.set(() => (pane.colour[pane.base] = event.target.value)) },
+        Object.entries(all).map(([value, { label, needs }]) =>
+          el("option", { value, selected: value === pane.colour[pane.base], disabled: needs === "field" && !hasField }, label))));
+      box.append(legend(run, this.runs, pane));
+    }
+    box.append(this.toggle("edges", "Edges of the result", { key: "E" }), this.toggle("triangles", "Edges of the input"));
+    return box;
+  }
+
+  lines() {
+    const run = this.runs[this.pane.run];
+    const lines = run.lines();
+    if (!lines) return null;
+    const names = { minimum: "Minimum curvature", maximum: "Maximum curvature", boundary: "Boundaries", feature: "Features" };
+    const of = (family) => lines.rows.filter((row) => row.family === family).length;
+    const box = el("section", {}, el("h2", {}, "Lines"),
+      Object.entries(names).map(([name, text], family) => of(family) > 0 && this.toggle(name, text, { colour: familyColours[family], detail: count(of(family)), key: "L: all" })),
+      this.toggle("seeds", "Where they began"), this.toggle("ends", "Where and why they ended"));
+    if (this.pane.layers.has("ends")) box.append(endLegend(lines));
+    return box;
+  }
+
+  directions() {
+    if (!this.runs[this.pane.run].surface.about.directions) return null;
+    return el("section", {}, el("h2", {}, "Directions"),
+      this.toggle("principal", "Principal directions", { key: "D" }), this.toggle("cross", "Cross field that lines follow"));
+  }
+
+  section() {
+    const { section } = this.view;
+    const box = el("section", {}, el("h2", {}, "Section"),
+      this.choice("Section", [["none", "None"], ["x", "X", "X"], ["y", "Y"], ["z", "Z"]], section.axis, (value) => (section.axis = value)));
+    if (section.axis !== "none") {
+      box.append(el("div", { class: "row" },
+        el("input", { type: "range", min: 0, max: 1, step: 0.005, value: section.place, "aria-label": "Place of the section", oninput: (event) => {
+          section.place = Number(event.target.value);
+          this.changed();
+        } }),
+        el("button", { "data-key": "flip", onclick: () => this.set(() => (section.flipped = !section.flipped)) }, "Flip")));
+    }
+    return box;
+  }
+
+  notes() {
+    const run = this.runs[this.pane.run];
+    const texts = [facesShown(run.surface), ...run.about.missing].filter(Boolean);
+    return texts.length > 0 && el("section", { class: "notes" }, texts.map((text) => el("p", {}, text)));
+  }
+}
+
+export function flip(set, name) {
+  if (!set.delete(name)) set.add(name);
+}
+
+function legend(run, runs, pane) {
+  const colouring = pane.colour[pane.base];
+  if (pane.base === "result") {
+    if (colouring === "sides") return sidesLegend(run);
+    if (colouring === "distance") return ramp("distance", ["0", `${percent(distanceEnd(runs), 2)} of the diagonal`]);
+    return "";
+  }
+  if (colouring === "confidence") return ramp("confidence", ["0: unreliable", "1: clear"]);
+  if (colouring === "plain" || !run.surface.about.curvature) return "";
+  const end = figure(curvatureEnd(run.surface) / run.surface.about.diagonal, 2);
+  return ramp("diverging", [`\u2212${end}`, "0", `+${end}`], ["concave", "flat", "convex"]);
+}
+
+const ramp = (scale, marks, names = []) =>
+  el("div", { class: "ramp" }, el("i", { style: `background:${scaleGradient(scale)}` }),
+    el("div", {}, marks.map((mark) => el("span", {}, mark))),
+    names.length > 0 && el("div", {}, names.map((name) => el("span", {}, name))));
+
+function sidesLegend(run) {
+  const { sides } = run.result();
+  const tally = { 3: 0, 4: 0, 5: 0, more: 0 };
+  for (const side of sides) ++tally[side in tally ? side : "more"];
+  const names = { 3: "triangles", 4: "quads", 5: "pentagons", more: "larger" };
+  return el("ul", { class: "key" }, Object.entries(names).filter(([key]) => tally[key] > 0).map(([key, name]) =>
+    el("li", {}, el("i", { class: "swatch", style: `background:${cssColour(sideColours[key])}` }), el("span", {}, name), el("small", {}, count(tally[key])))));
+}
+
+function endLegend(lines) {
+  const tally = endNames.map(() => 0);
+  for (const row of lines.rows) {
+    if (row.isClosed) continue;
+    ++tally[row.startReason];
+    ++tally[row.endReason];
+  }
+  return el("ul", { class: "key" }, endNames.map((name, i) => tally[i] > 0 &&
+    el("li", {}, el("i", { class: "swatch dot", style: `background:${cssColour(endColours[i])}` }), el("span", {}, name), el("small", {}, count(tally[i])))));
+}

@@ -1,0 +1,183 @@
+// Opens real reports in a real browser, from their files: report.browser.mjs BIN SHOTS
+// BIN has the programs, SHOTS takes screenshots. Exit code 77: the browser or the viewer is not there.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+
+const [bin, shots] = process.argv.slice(2);
+const executablePath = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(existsSync);
+
+function skip(reason) {
+  console.log(`browser: skipped: ${reason}; scripts/setup --all and scripts/build_viewer make it ready`);
+  process.exit(77);
+}
+
+if (!executablePath) skip("there is no chromium");
+const { chromium } = await import("playwright-core").catch(() => skip("there is no playwright-core"));
+if (!existsSync(new URL("../dist/viewer.html", import.meta.url))) skip("the viewer is not built");
+
+const folder = mkdtempSync(join(tmpdir(), "strake-browser-"));
+const strake = (...words) => execFileSync(join(bin, "strake"), words, { cwd: folder, stdio: ["ignore", "pipe", "inherit"] });
+const models = process.env.STRAKE_MODELS ?? "";
+
+/** Runs to show: always one of our own making, and two real models where they are. */
+function makeReports() {
+  const reports = [];
+  strake("sample", "part", "-o", "part.ply", "--faces", "9000");
+  for (const tolerance of ["0.1%", "0.3%"]) {
+    strake("remesh", "part.ply", "-q", "-o", `part-${tolerance}.obj`, "--keep", `<b>part ${tolerance}`, "--tolerance", tolerance);
+  }
+  strake("report", "<b>part 0.1%", "<b>part 0.3%", "-o", "part.html");
+  reports.push({ name: "part", result: "part-0.1%.obj", runs: ["<b>part 0.1%", "<b>part 0.3%"] });
+  for (const model of ["cad/rocker-arm.obj", "scan/igea.ply"]) {
+    const file = join(models, model);
+    if (!models || !existsSync(file)) {
+      console.log(`browser: ${model} is not in STRAKE_MODELS; left out`);
+      continue;
+    }
+    const name = model.replace(/.*\/|\..*/g, "");
+    strake("remesh", file, "-q", "-o", `${name}.obj`, "--keep", name);
+    strake("report", name, "-o", `${name}.html`);
+    reports.push({ name, result: `${name}.obj`, runs: [name] });
+  }
+  return reports;
+}
+
+/** A page on a report that fails on any error, and on any request but for the report itself. */
+async function open(browser, report, hash, options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1200, height: 760 }, ...options });
+  const page = await context.newPage();
+  page.on("console", (message) => assert.ok(!["error", "warning"].includes(message.type()) || /swiftshader|GPU stall/i.test(message.text()), message.text()));
+  page.on("pageerror", (error) => assert.fail(error.stack));
+  page.on("request", (request) => assert.match(request.url(), /^(file|data|blob):/));
+  await page.goto(`file://${encodeURI(join(folder, `${report.name}.html`)).replaceAll("#", "%23")}${hash}`);
+  await page.waitForFunction(() => document.documentElement.dataset.ready, null, { timeout: 60000 });
+  return page;
+}
+
+/** The drawing as a text that is equal for equal pixels. */
+const drawing = (page) =>
+  page.evaluate(() => {
+    window.strakeReport.stage.drawNow();
+    return window.strakeReport.stage.canvas.toDataURL();
+  });
+
+async function checkLayers(page) {
+  const first = await drawing(page);
+  for (const label of ["Edges of the result", "Edges of the input", "Minimum curvature", "Maximum curvature", "Where they began", "Principal directions", "Cross field"]) {
+    const box = page.locator("label.toggle", { hasText: label }).locator("input");
+    await box.click();
+    assert.notEqual(await drawing(page), first, `${label} changes nothing`);
+    await page.locator("label.toggle", { hasText: label }).locator("input").click();
+    assert.equal(await drawing(page), first, `${label} does not go away`);
+  }
+  const seen = new Set([first]);
+  const addView = async (what) => {
+    const pixels = await drawing(page);
+    assert.ok(!seen.has(pixels), `${what} looks like another view`);
+    seen.add(pixels);
+  };
+  for (const colour of ["distance", "plain"]) {
+    await page.locator("select[aria-label=Colour]").selectOption(colour);
+    await addView(colour);
+  }
+  await page.getByRole("button", { name: "Input", exact: true }).click();
+  for (const colour of ["k_min", "k_max", "confidence", "plain"]) {
+    await page.locator("select[aria-label=Colour]").selectOption(colour);
+    await addView(colour);
+  }
+  for (const key of ["x", "x", "s", "w"]) {
+    await page.keyboard.press(key);
+    await addView(`key ${key}`);
+  }
+}
+
+/** Numbers of vertex 0 are those of the file; a click in the middle answers. */
+async function checkPicking(browser, report) {
+  const page = await open(browser, report, "#pick=0,vertex,0");
+  const [, ...wanted] = readFileSync(join(folder, report.result), "utf8").match(/^v (\S+) (\S+) (\S+)/m);
+  const text = await page.locator(".numbers dd").first().textContent();
+  const size = Math.max(...wanted.map(Math.abs));
+  // Written with 5 digits; the grid's steps are 1/65535 of the longest side.
+  text.replaceAll("\u2212", "-").replaceAll("\u2009", "").split(", ").map(Number).forEach((x, k) => assert.ok(Math.abs(x - wanted[k]) < 1e-3 * size, `${text} for ${wanted}`));
+  const titles = new Set();
+  const box = await page.locator("canvas").boundingBox();
+  for (let i = 0; i < 60; ++i) {
+    await page.mouse.click(box.x + box.width * (0.3 + 0.4 * ((i * 0.618) % 1)), box.y + box.height * (0.3 + (0.4 * i) / 60));
+    if (await page.locator(".numbers").isVisible()) titles.add((await page.locator(".numbers strong").textContent()).split(" ")[0]);
+    if (i === 20) await page.keyboard.press("l");
+  }
+  assert.deepEqual([...titles].sort(), ["Face", "Line", "Vertex"]);
+  await page.keyboard.press("Escape");
+  assert.ok(!(await page.locator(".numbers").isVisible()));
+  await page.context().close();
+}
+
+async function checkFigures(page, report) {
+  await page.getByRole("tab", { name: "Figures" }).click();
+  const evaluated = JSON.parse(readFileSync(join(folder, report.runs[0], "evaluate.json"), "utf8")).result;
+  const row = page.locator("tr", { has: page.locator("th", { hasText: /^vertices$/ }) });
+  const digits = (await row.locator("td").first().textContent()).replace(/\D/g, "");
+  assert.equal(Number(digits), evaluated.topology.candidate.vertices);
+  assert.equal(await page.locator("figure svg").count(), 5);
+  await page.getByRole("tab", { name: "Origin" }).click();
+  assert.match(await page.locator(".page").textContent(), /--feature-angle/);
+  assert.match(await page.locator(".page").textContent(), /all stages/);
+}
+
+/** A link shows the same as the page it was taken from. */
+async function checkLink(browser, report) {
+  const page = await open(browser, report, "#a=0,input,k_max,sides,minimum+ends&section=y,0.4");
+  await page.keyboard.press("ArrowLeft");
+  await page.waitForTimeout(400);
+  const copy = await open(browser, report, await page.evaluate(() => location.hash));
+  assert.equal(await drawing(copy), await drawing(page));
+  await page.context().close();
+  await copy.context().close();
+}
+
+async function checkLooks(browser, report) {
+  const looks = [
+    ["light", {}, ""],
+    ["dark", { colorScheme: "dark" }, "#compare=side,0.5&a=0,input,k_max,sides,minimum+maximum+ends&b=0,result,plain,distance,edges"],
+    ["figures", {}, "#tab=figures"],
+    ["phone", { viewport: { width: 390, height: 844 }, deviceScaleFactor: 2, isMobile: true, hasTouch: true }, ""],
+    ["phone-figures", { viewport: { width: 390, height: 844 }, isMobile: true, colorScheme: "dark" }, "#tab=figures"],
+  ];
+  for (const [name, options, hash] of looks) {
+    const page = await open(browser, report, hash, options);
+    const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+    assert.ok(wide <= 0, `${name}: the page is ${wide} pixels too wide`);
+    assert.deepEqual(await page.locator("h1, th, option").locator("b").count(), 0, "a name became markup");
+    await page.screenshot({ path: join(shots, `${report.name}-${name}.png`) });
+    await page.context().close();
+  }
+}
+
+mkdirSync(shots, { recursive: true });
+let browser;
+try {
+  const reports = makeReports();
+  browser = await chromium.launch({
+    executablePath,
+    args: ["--no-sandbox", "--headless=new", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+  });
+  for (const report of reports) {
+    const page = await open(browser, report, "");
+    const ready = await page.evaluate(() => document.documentElement.dataset.ready);
+    const megabytes = statSync(join(folder, `${report.name}.html`)).size / 1e6;
+    console.log(`browser: ${report.name}: ${megabytes.toFixed(1)} MB, ready after ${ready} ms`);
+    await checkLayers(page);
+    await checkFigures(page, report);
+    await page.context().close();
+    await checkPicking(browser, report);
+    await checkLink(browser, report);
+    await checkLooks(browser, report);
+  }
+  console.log("browser: everything passed");
+} finally {
+  await browser?.close();
+  rmSync(folder, { recursive: true });
+}
