@@ -32,9 +32,9 @@ int make_report(const ReportCommand& command) {
   if (std::filesystem::path(command.output).extension() != ".html") {
     throw UsageError("--output '" + command.output + "': the name of a report ends in .html");
   }
-  require_viewer();
   std::vector<report::RunFiles> runs;
   for (const std::string& folder : command.folders) runs.push_back(report::read_run(folder));
+  require_viewer();
   const std::string page = report::fill_page(report::viewer_page(), report::describe_runs(runs));
   write_text(command.output, page);
   fmt::print("{}: {} run{}, {:.1f} MB\n", command.output, runs.size(), runs.size() == 1 ? "" : "s",

@@ -25,6 +25,10 @@ struct Found {
 const std::vector<std::string> kStageOrder = {"import", "tensor", "smooth", "size",    "trace",
                                               "mesh",   "fit",    "refine", "evaluate"};
 
+std::ptrdiff_t stage_place(const std::string& stage) {
+  return std::find(kStageOrder.begin(), kStageOrder.end(), stage) - kStageOrder.begin();
+}
+
 [[noreturn]] void refuse(const fs::path& folder, const std::string& what) {
   throw InputError("folder '" + folder.string() + "' " + what);
 }
@@ -34,7 +38,8 @@ class Folder {
  public:
   explicit Folder(fs::path path);
 
-  /// The one quads artifact that no other one was made from.
+  /// The quads artifact that no other one was made from; of several the one that was judged, or
+  /// that the last stage made.
   [[nodiscard]] const Found& result() const;
   /// The one of this kind that `result` goes back to, or the only one; nullptr: there is none.
   [[nodiscard]] const Found* source_of(const Found& result, ArtifactKind kind) const;
@@ -45,6 +50,8 @@ class Folder {
 
  private:
   void read_json(const fs::path& file);
+  /// Whether a report of the stage evaluate is about this artifact.
+  [[nodiscard]] bool is_judged(const Found& found) const;
 
   fs::path path_;
   std::vector<Found> artifacts_;  // by name
@@ -76,6 +83,12 @@ void Folder::read_json(const fs::path& file) {
   }
 }
 
+bool Folder::is_judged(const Found& found) const {
+  return std::any_of(records_.begin(), records_.end(), [&](const Json& record) {
+    return record.value("/inputs/candidate"_json_pointer, "") == found.info.content;
+  });
+}
+
 const Found& Folder::result() const {
   std::set<std::string> used;
   for (const Found& found : artifacts_) {
@@ -84,21 +97,32 @@ const Found& Folder::result() const {
       if (input.digest != found.info.content) used.insert(input.digest);
     }
   }
-  const Found* last = nullptr;
+  // What was judged comes first, then what the later stage made: between rounds of a tolerance no
+  // file is kept, so that a result need not name the one it comes from.
+  const auto rank = [&](const Found& found) {
+    return std::pair(is_judged(found), stage_place(found.info.provenance.stage));
+  };
+  const Found* best = nullptr;
+  const Found* rival = nullptr;
   for (const Found& found : artifacts_) {
     if (found.info.kind != ArtifactKind::quads || used.contains(found.info.content)) continue;
-    if (last != nullptr && last->info.content != found.info.content) {
-      refuse(path_, "holds several results, " + last->path.filename().string() + " and " +
-                        found.path.filename().string() + "; give each a folder of its own");
+    if (best == nullptr || rank(found) > rank(*best)) {
+      best = &found;
+      rival = nullptr;
+    } else if (rank(found) == rank(*best) && found.info.content != best->info.content) {
+      rival = &found;
     }
-    last = &found;
   }
-  if (last == nullptr) {
+  if (best == nullptr) {
     refuse(path_,
            "holds no artifact of kind 'quads', so there is no result to show; make one with "
            "'strake remesh MODEL -o OUT --keep FOLDER'");
   }
-  return *last;
+  if (rival != nullptr) {
+    refuse(path_, "holds several results, " + best->path.filename().string() + " and " +
+                      rival->path.filename().string() + "; give each a folder of its own");
+  }
+  return *best;
 }
 
 const Found* Folder::source_of(const Found& result, ArtifactKind kind) const {
@@ -132,11 +156,9 @@ std::vector<Json> Folder::records(const Found& result) const {
     const std::string judged = record.value("/inputs/candidate"_json_pointer, result.info.content);
     if (judged == result.info.content) mine.push_back(record);
   }
-  const auto place = [](const Json& record) {
-    return std::find(kStageOrder.begin(), kStageOrder.end(), record["stage"]) - kStageOrder.begin();
-  };
-  std::stable_sort(mine.begin(), mine.end(),
-                   [&](const Json& a, const Json& b) { return place(a) < place(b); });
+  std::stable_sort(mine.begin(), mine.end(), [](const Json& a, const Json& b) {
+    return stage_place(a["stage"]) < stage_place(b["stage"]);
+  });
   return mine;
 }
 

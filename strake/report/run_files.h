@@ -18,7 +18,7 @@ namespace strake::report {
 struct RunFiles {
   std::string name;  ///< of the folder
   TriMesh mesh;
-  QuadMesh quads;  ///< the last result: one that no other in the folder was made from
+  QuadMesh quads;  ///< the result, made after all others in the folder
   std::optional<PrincipalField> field;
   std::optional<LineSet> lines;
   std::string field_content;                   ///< names the field; "" where there is none

@@ -46,7 +46,8 @@ export class RunObjects {
         return made;
       });
       const tints = faceTints(this.run, colouring, distanceEnd(this.runs));
-      const ofCorner = Uint32Array.from(result.triangles, (_, c) => result.faceOfTriangle[Math.floor(c / 3)]);
+      const ofCorner = new Uint32Array(result.triangles.length);
+      for (let c = 0; c < ofCorner.length; ++c) ofCorner[c] = result.faceOfTriangle[Math.floor(c / 3)];
       return tinted(geometry, spread(tints, ofCorner), surfaceMaterial({ flat: true }));
     });
   }

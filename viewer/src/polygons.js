@@ -17,43 +17,76 @@ export function outlines(triangles, sides) {
   return { offsets, corners };
 }
 
+const from = []; // sides that have no opposite yet
+const to = [];
+
 /** Writes the outline of the triangles first .. end - 1 to `corners` from `at` on. */
 function outline(triangles, first, end, corners, at) {
-  const next = new Map();
-  for (let t = first; t < end; ++t) {
+  let open = 0;
+  for (let t = 3 * first; t < 3 * end; t += 3) {
     for (let i = 0; i < 3; ++i) {
-      const a = triangles[3 * t + i];
-      const b = triangles[3 * t + ((i + 1) % 3)];
+      const a = triangles[t + i];
+      const b = triangles[t + ((i + 1) % 3)];
       // A side that another triangle of the face runs along the other way is an inner one.
-      if (next.get(b)?.delete(a)) continue;
-      if (!next.has(a)) next.set(a, new Set());
-      next.get(a).add(b);
+      let side = 0;
+      while (side < open && (from[side] !== b || to[side] !== a)) ++side;
+      if (side < open) {
+        --open;
+        from[side] = from[open];
+        to[side] = to[open];
+      } else {
+        from[open] = a;
+        to[open++] = b;
+      }
     }
   }
-  let from = triangles[3 * first];
+  let corner = from[0];
   for (let i = 0; i < end - first + 2; ++i) {
-    corners[at + i] = from;
-    const [to] = next.get(from) ?? [from];
-    next.get(from)?.delete(to);
-    from = to;
+    corners[at + i] = corner;
+    let side = 0;
+    while (side < open - 1 && from[side] !== corner) ++side;
+    corner = to[side];
+    --open;
+    from[side] = from[open];
+    to[side] = to[open];
   }
 }
 
-/** Every edge once, as pairs of vertices. */
+/** Every edge of an oriented manifold once, as pairs of vertices. */
 export function uniqueEdges(offsets, corners, vertexCount) {
-  const edges = [];
-  const seen = new Set();
-  for (let f = 0; f + 1 < offsets.length; ++f) {
-    for (let c = offsets[f]; c < offsets[f + 1]; ++c) {
-      const a = corners[c];
-      const b = corners[c + 1 < offsets[f + 1] ? c + 1 : offsets[f]];
-      const key = a < b ? a * vertexCount + b : b * vertexCount + a;
-      if (seen.has(key)) continue;
-      seen.add(key);
-      edges.push(a, b);
+  // Sides by their smaller vertex: those that run up, and those that run down.
+  const first = new Uint32Array(vertexCount + 1);
+  const forEachSide = (use) => {
+    for (let f = 0; f + 1 < offsets.length; ++f) {
+      let a = corners[offsets[f + 1] - 1];
+      for (let c = offsets[f]; c < offsets[f + 1]; ++c) {
+        use(a, corners[c]);
+        a = corners[c];
+      }
     }
-  }
-  return new Uint32Array(edges);
+  };
+  let count = 0;
+  forEachSide((a, b) => a < b && ++first[a + 1]);
+  for (let v = 0; v < vertexCount; ++v) first[v + 1] += first[v];
+  const upper = new Uint32Array(first[vertexCount]);
+  const filled = first.slice();
+  const edges = new Uint32Array(2 * corners.length);
+  const add = (a, b) => {
+    edges[count++] = a;
+    edges[count++] = b;
+  };
+  forEachSide((a, b) => {
+    if (a >= b) return;
+    upper[filled[a]++] = b;
+    add(a, b);
+  });
+  forEachSide((a, b) => {
+    if (a <= b) return;
+    let i = first[b];
+    while (i < first[b + 1] && upper[i] !== a) ++i;
+    if (i === first[b + 1]) add(b, a);
+  });
+  return edges.slice(0, count);
 }
 
 /** Number of edges at each vertex. */

@@ -28,4 +28,8 @@ test("every edge is there once, and vertices know how many they have", () => {
   const edges = uniqueEdges(offsets, Uint32Array.from(quads.flat()), 8);
   assert.equal(edges.length / 2, 12);
   assert.deepEqual([...valences(edges, 8)], Array(8).fill(3));
+  // Without its lid the cube has the same edges, four of them with one face only.
+  const open = uniqueEdges(offsets.slice(0, 6), Uint32Array.from(quads.filter((_, f) => f !== 1).flat()), 8);
+  const pairs = (list) => [...Array(list.length / 2).keys()].map((i) => `${list[2 * i]} ${list[2 * i + 1]}`).sort();
+  assert.deepEqual(pairs(open), pairs(edges));
 });

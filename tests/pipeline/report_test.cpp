@@ -1,0 +1,90 @@
+#include <filesystem>
+
+#include "tests/pipeline/run_program.h"
+
+namespace strake::pipeline_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ReportCommand : public ProgramTest {
+ protected:
+  ReportCommand() {
+    must("strake sample part -o part.ply --faces 3000");
+    must("strake remesh part.ply -q -o part.obj --vertices 400 --keep run");
+  }
+
+  /// Whether strake was built with the viewer; where not, says so as it should.
+  bool has_viewer() {
+    const Outcome outcome = run("strake report run -o report.html");
+    if (outcome.exit_code == 0) return true;
+    EXPECT_EQ(outcome.exit_code, 4) << outcome.err;
+    EXPECT_NE(outcome.err.find("scripts/build_viewer"), std::string::npos) << outcome.err;
+    return false;
+  }
+};
+
+TEST_F(ReportCommand, SaysWhatAFolderLacksAndWritesNothing) {
+  must_fail(2, "strake report run -o report.pdf", "ends in .html");
+  must_fail(3, "strake report nowhere -o report.html", "nowhere");
+  fs::create_directory(file("empty"));
+  must_fail(3, "strake report empty -o report.html", "no artifact of kind 'quads'");
+  fs::copy_file(file("run/fitted.hdf"), file("empty/fitted.hdf"));
+  must_fail(3, "strake report empty -o report.html", "no artifact of kind 'mesh'");
+  // A mesh that the result was not made from.
+  must("strake sample torus -o torus.ply --faces 1000");
+  must("strake-import torus.ply -q -o empty/mesh.hdf");
+  must_fail(4, "strake report empty -o report.html", "mesh");
+  put("empty/evaluate.json", "{ no json");
+  must_fail(3, "strake report empty -o report.html", "evaluate.json");
+}
+
+TEST_F(ReportCommand, TwoResultsInAFolderAreOneTooMany) {
+  must("strake-trace run/mesh.hdf run/field.hdf -q -o other-lines.hdf --vertices 200");
+  must("strake-mesh run/mesh.hdf other-lines.hdf -q -o other.hdf");
+  must("strake-fit run/mesh.hdf other.hdf -q -o run/other.hdf");
+  fs::remove(file("run/evaluate.json"));  // which says what the result is
+  must_fail(3, "strake report run -o report.html", "several results");
+}
+
+TEST_F(ReportCommand, TakesTheLastResultOfEveryGoal) {
+  for (const std::string goal : {"", "--tolerance 0.3%", "--tolerance 0.3% --no-evaluate"}) {
+    fs::remove_all(file("goal"));
+    must("strake remesh part.ply -q -o part.obj --keep goal " + goal);
+    if (!has_viewer()) GTEST_SKIP() << "strake was built without the viewer";
+    must("strake report goal -o goal.html");
+    const std::string vertices = "\n" + bytes("part.obj");
+    std::size_t count = 0;
+    for (std::size_t at = 0; (at = vertices.find("\nv ", at)) != std::string::npos; ++at) ++count;
+    EXPECT_NE(bytes("goal.html").find("\"result\":{\"vertices\":" + std::to_string(count) + ","),
+              std::string::npos)
+        << goal;
+  }
+}
+
+TEST_F(ReportCommand, IsTheSameForAnyNumberOfThreads) {
+  if (!has_viewer()) GTEST_SKIP() << "strake was built without the viewer";
+  must("strake report run -o one.html --threads 1");
+  must("strake report run -o three.html --threads 3");
+  EXPECT_EQ(bytes("one.html"), bytes("three.html"));
+}
+
+TEST_F(ReportCommand, TakesFilesOfAnyNameAndDoesWithoutTheRest) {
+  if (!has_viewer()) GTEST_SKIP() << "strake was built without the viewer";
+  fs::create_directory(file("own"));
+  fs::copy_file(file("run/mesh.hdf"), file("own/the-input.hdf"));
+  fs::copy_file(file("run/fitted.hdf"), file("own/the-output.hdf"));
+  must("strake report own run -o report.html");
+  const std::string page = bytes("report.html");
+  EXPECT_NE(page.find("no artifact of kind 'field'"), std::string::npos);
+  EXPECT_NE(page.find("\"name\":\"own\""), std::string::npos);
+  EXPECT_NE(page.find("\"name\":\"run\""), std::string::npos);
+  EXPECT_EQ(page.find("%STRAKE_"), std::string::npos);
+  // Nothing is fetched from anywhere: no link, no source, no import but of data.
+  for (const char* fetch : {"<link", " src=\"http", "@import", "url(http"}) {
+    EXPECT_EQ(page.find(fetch), std::string::npos) << fetch;
+  }
+}
+
+}  // namespace
+}  // namespace strake::pipeline_test
