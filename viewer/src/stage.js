@@ -127,7 +127,7 @@ export class Stage {
     const { renderer } = this;
     this.setSection();
     renderer.setScissorTest(false);
-    renderer.setClearColor(getComputedStyle(this.canvas).getPropertyValue("--stage").trim() || "#ffffff");
+    renderer.setClearColor(getComputedStyle(this.canvas).backgroundColor);
     renderer.clear();
     renderer.setScissorTest(true);
     for (const area of this.areas()) {
@@ -158,10 +158,8 @@ export class Stage {
   /** What a pane shows. */
   scene(area) {
     const scene = new THREE.Scene();
-    scene.matrixWorldAutoUpdate = true;
     const shown = visibleObjects(this.view.panes[area.pane], this.objects);
-    const style = getComputedStyle(this.canvas);
-    const ink = new THREE.Color(style.getPropertyValue("--wire").trim() || "#000000");
+    const ink = new THREE.Color(getComputedStyle(this.canvas).color);
     for (const [name, object] of shown) {
       object.traverse((part) => prepare(part, name, ink, area, this.renderer.getPixelRatio()));
       scene.add(object);
@@ -192,7 +190,9 @@ function prepare(part, name, ink, area, ratio) {
   if (uniforms.ratio) uniforms.ratio.value = ratio;
   if (uniforms.opacity) {
     uniforms.colour.value.copy(ink);
-    uniforms.opacity.value = name === "triangles" ? 0.22 : 0.75;
+    // Many edges would turn the surface black.
+    const edges = part.geometry.index.count / 2;
+    uniforms.opacity.value = name === "triangles" ? 0.22 : Math.min(Math.max(60 / Math.sqrt(edges), 0.35), 0.75);
   }
 }
 
