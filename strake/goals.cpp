@@ -26,6 +26,10 @@ constexpr int kMostDensityRounds = 5;
 /// Times that cells are divided and vertices fitted again on the way to a tolerance. Fitting makes
 /// many cells good enough that would be divided without.
 constexpr int kFittedRefinements = 2;
+/// Times that lines are traced again, closer, where dividing cells does not reach a tolerance; and
+/// at which share of their distances.
+constexpr int kCloserLines = 2;
+constexpr double kCloser = 0.6;
 
 std::int64_t count_of(const Session& session, const char* port, Counted counted) {
   const PolyMesh& mesh = session.get<QuadMesh>(port).mesh;
@@ -113,6 +117,26 @@ void fit_refined(Session& session, const GoalStages& stages) {
   session.run(stages.fit);
 }
 
+/// Divides cells and fits vertices in turn, and divides once more.
+/// \return the port of the result \throw ToleranceError where the tolerance is not reached
+std::string refine_in_turn(Session& session, const GoalStages& stages) {
+  const Option& rounds = stages.refine.option("refine-rounds");
+  const Option& partly = stages.refine.option("refine-partly");
+  const std::string all_rounds = rounds.value();
+  const std::string may_miss = partly.value();
+  partly.parse_into("true");
+  for (int i = 0; i < std::min(kFittedRefinements, std::stoi(all_rounds)); ++i) {
+    rounds.parse_into("1");
+    session.run(stages.refine);
+    fit_refined(session, stages);
+  }
+  rounds.parse_into(all_rounds);
+  partly.parse_into(may_miss);
+  session.run(stages.refine);
+  session.keep(stages.refine);
+  return "refined";
+}
+
 }  // namespace
 
 std::string meet_count(Session& session, const GoalStages& stages, Counted counted,
@@ -161,29 +185,25 @@ std::string follow_spacing(Session& session, const GoalStages& stages) {
 
 std::string meet_tolerance(Session& session, const GoalStages& stages, const std::string& tolerance,
                            ConsoleObserver& console) {
-  const std::string fitted = follow_spacing(session, stages);
   stages.refine.option("refine-tolerance").parse_into(tolerance);
-  if (only_quads(stages)) {
-    console.say(
-        "warning: with --pure-quads cells are not divided: the tolerance steers the spacing of "
-        "lines, and may be exceeded");
-    return fitted;
+  const Option& scale = stages.trace.option("spacing-scale");
+  for (int closer = 0;; ++closer) {
+    const std::string fitted = follow_spacing(session, stages);
+    if (only_quads(stages)) {
+      console.say(
+          "warning: with --pure-quads cells are not divided: the tolerance steers the spacing of "
+          "lines, and may be exceeded");
+      return fitted;
+    }
+    try {
+      return refine_in_turn(session, stages);
+    } catch (const ToleranceError&) {
+      if (closer == kCloserLines) throw;
+    }
+    console.say("dividing cells does not reach the tolerance; tracing closer lines");
+    const double closer_scale = kCloser * std::stod(scale.value());
+    scale.parse_into(fmt::format("{}", std::clamp(closer_scale, scale.min, scale.max)));
   }
-  const Option& rounds = stages.refine.option("refine-rounds");
-  const Option& partly = stages.refine.option("refine-partly");
-  const std::string all_rounds = rounds.value();
-  const std::string may_miss = partly.value();
-  partly.parse_into("true");
-  for (int i = 0; i < std::min(kFittedRefinements, std::stoi(all_rounds)); ++i) {
-    rounds.parse_into("1");
-    session.run(stages.refine);
-    fit_refined(session, stages);
-  }
-  rounds.parse_into(all_rounds);
-  partly.parse_into(may_miss);
-  session.run(stages.refine);
-  session.keep(stages.refine);
-  return "refined";
 }
 
 }  // namespace strake

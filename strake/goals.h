@@ -36,7 +36,8 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
 /// result
 std::string follow_spacing(Session& session, const GoalStages& stages);
 
-/// Traces once, and divides cells until the result is within a tolerance of the surface, both ways.
+/// Traces, and divides cells until the result is within a tolerance of the surface, both ways;
+/// where that is not reached, again with closer lines.
 /// \param tolerance  as `Length::to_string` gives it
 /// \return the port of the result
 /// \throw ToleranceError naming places where that is not reached

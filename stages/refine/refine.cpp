@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -15,6 +16,7 @@
 #include "common/geometry/cell_error/cell_error.h"
 #include "common/geometry/cell_error/tolerance_check.h"
 #include "common/geometry/poly_topology/face_shape.h"
+#include "common/geometry/poly_topology/poly_topology.h"
 #include "stages/refine/split_cells.h"
 #include "stages/refine/surface_cells.h"
 #include "stages/refine/surface_points.h"
@@ -28,11 +30,16 @@ constexpr std::size_t kLeastMaxSides = 5;
 /// Heights below this share of what a cell is off by do not explain it.
 constexpr double kExplains = 0.25;
 constexpr std::size_t kNamedPlaces = 5;
+/// Where edges are measured.
+constexpr std::array<double, 3> kPlacesOnEdge = {0.25, 0.5, 0.75};
 /// Rounds in which the cell nearest to a place of the input is divided. What is left after that is
 /// mostly nearest to a cell that does not lie over it.
 constexpr std::int64_t kRoundsInSpace = 3;
 /// Rounds after which vertices are moved to the places that are left, where dividing did not help.
 constexpr std::int64_t kRoundsOfDividing = 6;
+/// Dividing is given up at so many times the fewest places so far, or of these if there were fewer.
+constexpr std::size_t kHopeless = 4;
+constexpr std::size_t kFewPlaces = 100;
 /// Rounds in which the worst cells are divided up to a count.
 constexpr std::int64_t kRoundsOfCount = 4;
 /// Vertices that dividing a cell gives, about.
@@ -60,26 +67,22 @@ class Refinement {
     for (Index v = 0; v < quads_.mesh.vertex_count(); ++v) {
       Vec3& p = quads_.mesh.positions[v];
       if (input.closest_within(p - mesh_.origin, tolerance).triangle != kNone) continue;
-      p = mesh_.origin +
-          place_of(mesh_, {quads_.provenance.face[v], quads_.provenance.barycentric[v]});
+      p = mesh_.origin + place_of(mesh_, foot_of(v));
     }
   }
 
   /// Moves the vertex nearest on the surface to each of these places of the input there, so that
   /// they are reached for certain. Vertices on feature and boundary lines stay.
   void reach(const std::vector<Excess>& excess) {
-    const std::vector<Index> nearest = nearest_on_surface(mesh_, quads_);
+    const NearestOnSurface nearest(mesh_, quads_);
     std::vector<char> moved(quads_.mesh.positions.size(), 0);
     for (const Excess& e : excess) {
       if (e.input_face == kNone) continue;
-      const auto& corners = mesh_.faces[e.input_face];
-      const Index v = nearest[corners[0]];
-      if (v == kNone || moved[v] != 0) continue;
-      const SurfacePoint foot{quads_.provenance.face[v], quads_.provenance.barycentric[v]};
-      if (points_.is_on_line(foot)) continue;
-      const ClosestPoint at =
-          closest_point_on_triangle(e.place, mesh_.positions[corners[0]],
-                                    mesh_.positions[corners[1]], mesh_.positions[corners[2]]);
+      const Index v = nearest.vertex(e.input_face, e.place);
+      if (v == kNone || moved[v] != 0 || points_.is_on_line(foot_of(v))) continue;
+      const auto& [a, b, c] = mesh_.faces[e.input_face];
+      const ClosestPoint at = closest_point_on_triangle(e.place, mesh_.positions[a],
+                                                        mesh_.positions[b], mesh_.positions[c]);
       quads_.provenance.face[v] = e.input_face;
       quads_.provenance.barycentric[v] = at.barycentric;
       quads_.mesh.positions[v] = e.place + mesh_.origin;
@@ -87,7 +90,9 @@ class Refinement {
     }
   }
 
-  void divide(const ComparedSurfaces& surfaces, const std::vector<Target>& targets) {
+  /// Divides cells. \param tolerance  that edges are to keep
+  void divide(const ComparedSurfaces& surfaces, const std::vector<Target>& targets,
+              double tolerance) {
     positions_ = surfaces.positions();
     normals_.assign(positions_.size(), Vec3::Zero());
     for (Index f = 0; f < quads_.mesh.face_count(); ++f) {
@@ -99,7 +104,7 @@ class Refinement {
     for (const Target& target : targets) {
       chosen[target.face] = 1;
       const std::span<const Index> face = quads_.mesh.face(target.face);
-      for (const std::size_t i : edges_to_divide(surfaces, target)) {
+      for (const std::size_t i : edges_to_divide(surfaces, target, tolerance)) {
         const Index a = face[i];
         const Index b = face[(i + 1) % face.size()];
         if (marks.at(a, b) == kNone) marks.set(a, b, add_between(a, b, normals_[a] + normals_[b]));
@@ -114,6 +119,10 @@ class Refinement {
   }
 
  private:
+  [[nodiscard]] SurfacePoint foot_of(Index v) const {
+    return {quads_.provenance.face[v], quads_.provenance.barycentric[v]};
+  }
+
   Index add(const SurfacePoint& point) {
     positions_.push_back(place_of(mesh_, point));
     normals_.push_back(Vec3::Zero());
@@ -124,19 +133,43 @@ class Refinement {
   }
 
   Index add_between(Index a, Index b, const Vec3& normal) {
-    const auto point_of = [&](Index v) {
-      return SurfacePoint{quads_.provenance.face[v], quads_.provenance.barycentric[v]};
-    };
-    return add(
-        points_.between(point_of(a), point_of(b), 0.5 * (positions_[a] + positions_[b]), normal));
+    const Vec3 middle = 0.5 * (positions_[a] + positions_[b]);
+    return add(points_.between(foot_of(a), foot_of(b), middle, normal));
   }
 
-  /// Which edges of a cell get a vertex, so that it is cut across the direction it is bent in.
+  /// Whether an edge is farther from the surface than the tolerance.
+  [[nodiscard]] bool is_beyond(const SurfaceDistance& input, Index a, Index b,
+                               double tolerance) const {
+    return std::ranges::any_of(kPlacesOnEdge, [&](double share) {
+      const Vec3 p = positions_[a] + share * (positions_[b] - positions_[a]);
+      return input.closest_within(p, tolerance).triangle == kNone;
+    });
+  }
+
+  /// Which edges of a cell get a vertex: those that are beyond the tolerance, of a quad with the
+  /// ones opposite; where none is, those across the direction that the cell is bent in.
   [[nodiscard]] std::vector<std::size_t> edges_to_divide(const ComparedSurfaces& surfaces,
-                                                         const Target& target) const {
+                                                         const Target& target,
+                                                         double tolerance) const {
     const std::span<const Index> face = quads_.mesh.face(target.face);
     const std::size_t n = face.size();
     if (n == 3) return {0, 1, 2};
+    std::vector<std::size_t> beyond;
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto at = [&](std::size_t e) {
+        return is_beyond(surfaces.input(), face[e % n], face[(e + 1) % n], tolerance);
+      };
+      if (at(i) || (n == 4 && at(i + 2))) beyond.push_back(i);
+    }
+    if (!beyond.empty()) return beyond;
+    return edges_across_bend(surfaces, target);
+  }
+
+  /// The edges of a cell of four corners or more that lie along the direction in which it is bent.
+  [[nodiscard]] std::vector<std::size_t> edges_across_bend(const ComparedSurfaces& surfaces,
+                                                           const Target& target) const {
+    const std::span<const Index> face = quads_.mesh.face(target.face);
+    const std::size_t n = face.size();
     const auto side = [&](std::size_t i) {
       return Vec3(positions_[face[(i + 1) % n]] - positions_[face[i % n]]);
     };
@@ -194,9 +227,9 @@ std::vector<Target> cells_beyond(const TriMesh& mesh, const QuadMesh& quads,
   std::vector<double> distance(static_cast<std::size_t>(quads.mesh.face_count()), 0);
   const auto note = [&](Index cell, double d) { distance[cell] = std::max(distance[cell], d); };
   std::vector<std::vector<Index>> cells_around(on_surface ? quads.mesh.positions.size() : 0);
-  std::vector<Index> nearest;
+  std::optional<NearestOnSurface> nearest;
   if (on_surface) {
-    nearest = nearest_on_surface(mesh, quads);
+    nearest.emplace(mesh, quads);
     for (Index f = 0; f < quads.mesh.face_count(); ++f) {
       for (const Index v : quads.mesh.face(f)) cells_around[v].push_back(f);
     }
@@ -206,10 +239,9 @@ std::vector<Target> cells_beyond(const TriMesh& mesh, const QuadMesh& quads,
       note(e.cell, e.distance);
       continue;
     }
-    for (const Index corner : mesh.faces[e.input_face]) {
-      if (nearest[corner] == kNone) continue;
-      for (const Index f : cells_around[nearest[corner]]) note(f, e.distance);
-    }
+    const Index v = nearest->vertex(e.input_face, e.place);
+    if (v == kNone) continue;
+    for (const Index f : cells_around[v]) note(f, e.distance);
   }
   std::vector<Target> targets;
   for (std::size_t f = 0; f < distance.size(); ++f) {
@@ -257,13 +289,15 @@ std::int64_t refine_to_tolerance(const TriMesh& mesh, Refinement& refinement,
   const double tolerance = (1 - kMargin) * wanted;
   refinement.put_back(SurfaceDistance(mesh.positions, mesh.faces), tolerance);
   std::size_t last = std::numeric_limits<std::size_t>::max();  // places before the last division
+  std::size_t fewest = last;
   for (std::int64_t round = 0;; ++round) {
     observer.report("dividing cells", double(round) / double(options.rounds + 1));
     const ComparedSurfaces surfaces(mesh, refinement.quads());
     std::vector<Excess> excess = check_tolerance(surfaces, tolerance);
     report.set("refine.places_beyond", excess.size());
     if (excess.empty()) return round;
-    if (round == options.rounds) {
+    fewest = std::min(fewest, excess.size());
+    if (round == options.rounds || excess.size() > kHopeless * std::max(fewest, kFewPlaces)) {
       if (options.partly) return round;
       throw ToleranceError(fmt::format(
           "the result is farther than {:.6g} from the surface, after {} rounds of dividing cells: "
@@ -276,7 +310,8 @@ std::int64_t refine_to_tolerance(const TriMesh& mesh, Refinement& refinement,
     } else {
       last = excess.size();
       refinement.divide(surfaces,
-                        cells_beyond(mesh, refinement.quads(), excess, round >= kRoundsInSpace));
+                        cells_beyond(mesh, refinement.quads(), excess, round >= kRoundsInSpace),
+                        tolerance);
     }
   }
 }
@@ -291,7 +326,7 @@ std::int64_t refine_to_count(const TriMesh& mesh, Refinement& refinement,
     const ComparedSurfaces surfaces(mesh, refinement.quads());
     const std::vector<Target> targets = worst_cells(surfaces, static_cast<double>(missing));
     if (targets.empty()) break;
-    refinement.divide(surfaces, targets);
+    refinement.divide(surfaces, targets, std::numeric_limits<double>::infinity());
   }
   return round;
 }
@@ -312,6 +347,9 @@ RefineResult refine_cells(const TriMesh& mesh, const QuadMesh& quads, const Refi
     rounds = refine_to_count(mesh, refinement, options, observer);
   }
   result.quads = refinement.quads();
+  if (const PolyTopology topology = analyse(result.quads.mesh); !topology.is_oriented_manifold()) {
+    throw AlgorithmError("the divided cells are no oriented manifold: " + topology.defects());
+  }
   result.quads.mesh.attributes = carry_attributes(mesh, result.quads.mesh, result.quads.provenance);
   result.report.set("refine.rounds", rounds);
   result.report.set(

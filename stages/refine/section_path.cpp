@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/geometry/surface_distance/surface_distance.h"
+#include "stages/refine/way_split.h"
 
 namespace strake {
 namespace {
@@ -62,21 +63,13 @@ bool contains(const std::vector<Index>& faces, Index face) {
   return std::find(faces.begin(), faces.end(), face) != faces.end();
 }
 
-SurfacePoint middle_of(const TriMesh& mesh, const Way& way) {
-  double left = way.length / 2;
-  std::size_t i = 0;
-  double piece = (way.places[1] - way.places[0]).norm();
-  while (left > piece && i + 1 < way.faces.size()) {
-    left -= piece;
-    ++i;
-    piece = (way.places[i + 1] - way.places[i]).norm();
-  }
-  const double share = piece > 0 ? std::min(1.0, left / piece) : 0;
-  const Vec3 p = way.places[i] + share * (way.places[i + 1] - way.places[i]);
-  const auto& [a, b, c] = mesh.faces[way.faces[i]];
+SurfacePoint split_of(const TriMesh& mesh, const Way& way) {
+  const auto [piece, share] = split_of_way(way.places);
+  const Vec3 p = way.places[piece] + share * (way.places[piece + 1] - way.places[piece]);
+  const auto& [a, b, c] = mesh.faces[way.faces[piece]];
   const ClosestPoint at =
       closest_point_on_triangle(p, mesh.positions[a], mesh.positions[b], mesh.positions[c]);
-  return {way.faces[i], at.barycentric};
+  return {way.faces[piece], at.barycentric};
 }
 
 }  // namespace
@@ -108,9 +101,9 @@ std::vector<Index> faces_around(const TriMesh& mesh, const SurfacePoint& point) 
   return faces;
 }
 
-std::optional<SurfacePoint> middle_of_section(const TriMesh& mesh, const SurfacePoint& a,
-                                              const SurfacePoint& b, const Vec3& normal,
-                                              double longest) {
+std::optional<SurfacePoint> split_of_section(const TriMesh& mesh, const SurfacePoint& a,
+                                             const SurfacePoint& b, const Vec3& normal,
+                                             double longest) {
   const Vec3 from = place_of(mesh, a);
   const Vec3 to = place_of(mesh, b);
   const Vec3 across = (to - from).cross(normal);
@@ -122,7 +115,7 @@ std::optional<SurfacePoint> middle_of_section(const TriMesh& mesh, const Surface
     if (!contains(ends, face)) continue;
     Way way{{from}, {}, 0};
     way.go(face, to);
-    return middle_of(mesh, way);
+    return split_of(mesh, way);
   }
   std::optional<Way> best;
   for (const Index face : starts) {
@@ -145,7 +138,7 @@ std::optional<SurfacePoint> middle_of_section(const TriMesh& mesh, const Surface
     }
   }
   if (!best) return std::nullopt;
-  return middle_of(mesh, *best);
+  return split_of(mesh, *best);
 }
 
 }  // namespace strake

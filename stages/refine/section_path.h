@@ -20,14 +20,15 @@ Vec3 place_of(const TriMesh& mesh, const SurfacePoint& point);
 /// The faces that hold a point: one, two of an edge, or all around a vertex.
 std::vector<Index> faces_around(const TriMesh& mesh, const SurfacePoint& point);
 
-/// The middle, by length, of the way over the surface from a to b in which a plane cuts it.
+/// Where the way over the surface from a to b, in which a plane cuts it, is best divided
+/// (way_split.h).
 ///
 /// Unlike the nearest point it stays on the sheet that a and b lie on.
 /// \param normal   of the surface between them, about; the plane holds a, b and this direction
 /// \param longest  model units; longer ways do not count
 /// \return nothing where the plane's cut does not lead from one to the other
-std::optional<SurfacePoint> middle_of_section(const TriMesh& mesh, const SurfacePoint& a,
-                                              const SurfacePoint& b, const Vec3& normal,
-                                              double longest);
+std::optional<SurfacePoint> split_of_section(const TriMesh& mesh, const SurfacePoint& a,
+                                             const SurfacePoint& b, const Vec3& normal,
+                                             double longest);
 
 }  // namespace strake

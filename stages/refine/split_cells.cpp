@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/geometry/poly_topology/face_shape.h"
+#include "common/geometry/poly_topology/poly_edges.h"
 
 namespace strake {
 namespace {
@@ -30,9 +31,12 @@ double least_turn(const std::vector<Vec3>& positions, const Ring& ring, const Ve
 
 class FaceSplitter {
  public:
-  FaceSplitter(const std::vector<Vec3>& positions, std::size_t max_sides,
+  /// \param mesh  whose edges may not be made a second time
+  FaceSplitter(const PolyMesh& mesh, const std::vector<Vec3>& positions, std::size_t max_sides,
                const AddCentre& add_centre, PolyMesh& result)
-      : positions_(positions), max_sides_(max_sides), add_centre_(add_centre), result_(result) {}
+      : positions_(positions), max_sides_(max_sides), add_centre_(add_centre), result_(result) {
+    for (const auto& [a, b] : collect_edges(mesh).vertices) edges_.set(a, b, a);
+  }
 
   /// \param ring    the face with the vertices on its edges
   /// \param is_new  [ring] 1 for those
@@ -94,7 +98,7 @@ class FaceSplitter {
     double best = -std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t j = i + 2; j < n; ++j) {
-        if (i == 0 && j == n - 1) continue;
+        if ((i == 0 && j == n - 1) || edges_.at(ring[i], ring[j]) != kNone) continue;
         const Ring a(ring.begin() + i, ring.begin() + j + 1);
         Ring b(ring.begin() + j, ring.end());
         b.insert(b.end(), ring.begin(), ring.begin() + i + 1);
@@ -108,6 +112,11 @@ class FaceSplitter {
         best_b = b;
       }
     }
+    if (best_a.empty()) {
+      result_.add_face(ring);
+      return;
+    }
+    edges_.set(best_a.front(), best_a.back(), best_a.front());
     by_diagonals(best_a, false);
     by_diagonals(best_b, false);
   }
@@ -116,6 +125,8 @@ class FaceSplitter {
   std::size_t max_sides_;
   const AddCentre& add_centre_;
   PolyMesh& result_;
+  EdgeMarks
+      edges_;  ///< of the mesh, and diagonals made so far: two faces may have the same corners
 };
 
 }  // namespace
@@ -124,7 +135,7 @@ PolyMesh split_cells(const PolyMesh& mesh, const std::vector<char>& divide, cons
                      std::size_t max_sides, const std::vector<Vec3>& positions,
                      const AddCentre& add_centre) {
   PolyMesh result;
-  FaceSplitter splitter(positions, max_sides, add_centre, result);
+  FaceSplitter splitter(mesh, positions, max_sides, add_centre, result);
   for (Index f = 0; f < mesh.face_count(); ++f) {
     const std::span<const Index> face = mesh.face(f);
     Ring ring;

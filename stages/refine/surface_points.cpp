@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/geometry/mesh_measures.h"
+#include "stages/refine/way_split.h"
 
 namespace strake {
 namespace {
@@ -121,27 +122,20 @@ SurfacePoint SurfacePoints::between(const SurfacePoint& a, const SurfacePoint& b
   try_way(a, b);
   try_way(b, a);  // boundary half-edges have one sense only
   if (best.empty()) {
-    const auto cut = middle_of_section(mesh_, a, b, normal, longest);
+    const auto cut = split_of_section(mesh_, a, b, normal, longest);
     return cut ? *cut : nearest(middle, normal);
   }
-  double left = shortest / 2;
-  for (std::size_t i = 1; i < best.size(); ++i) {
-    const double piece = (place(best[i]) - place(best[i - 1])).norm();
-    if (left > piece && i + 1 < best.size()) {
-      left -= piece;
-      continue;
-    }
-    // Where the half-edge changes, the piece lies on the next one.
-    const Index h = best[i].halfedge;
-    const double start = best[i - 1].halfedge == h ? best[i - 1].lambda : 0;
-    const double share = piece > 0 ? std::min(left / piece, 1.0) : 0.5;
-    const double lambda = start + share * (best[i].lambda - start);
-    SurfacePoint point{TriMesh::face_of(h), {0, 0, 0}};
-    point.barycentric[h % 3] = 1 - lambda;
-    point.barycentric[(h + 1) % 3] = lambda;
-    return point;
-  }
-  return nearest(middle, normal);
+  std::vector<Vec3> places;
+  for (const LinePlace& at : best) places.push_back(place(at));
+  const auto [piece, share] = split_of_way(places);
+  // Where the half-edge changes, the piece lies on the next one.
+  const LinePlace& end = best[piece + 1];
+  const double start = best[piece].halfedge == end.halfedge ? best[piece].lambda : 0;
+  const double lambda = start + share * (end.lambda - start);
+  SurfacePoint point{TriMesh::face_of(end.halfedge), {0, 0, 0}};
+  point.barycentric[end.halfedge % 3] = 1 - lambda;
+  point.barycentric[(end.halfedge + 1) % 3] = lambda;
+  return point;
 }
 
 }  // namespace strake

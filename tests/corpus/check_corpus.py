@@ -7,6 +7,8 @@ Suites:
   default  every manifold model of scan, cad, genus and open, with strake's defaults: the same
            topology, an oriented manifold, at most 5 sides, few concave faces
   tenth    the same with a tenth of the input's vertices wanted, which must be met within 10 %
+  tolerance  models of up to 3600 vertices with a tolerance of 0.3 %: the same topology, and no place
+           farther off
   quality  quads and distance at five published settings
   dirty    every broken file: a sound result, or a refusal that says why; never a crash
   adversarial  the same for generated meshes: --count of them, from --first on
@@ -40,10 +42,13 @@ SKIPPED = 77
 PARALLEL = 2
 
 MOST_CONCAVE_PERCENT = 0.5
+TOLERANCE = 0.003  # share of the diagonal
+MOST_VERTICES_WITH_TOLERANCE = 3600
 COUNT_TOLERANCE = 0.1
 # Seconds of processor time for one model, which other work on the machine does not change; and how
 # much longer it may take by the clock.
-TIME_LIMIT = {"default": 300, "tenth": 300, "quality": 300, "dirty": 60, "adversarial": 20}
+TIME_LIMIT = {"default": 300, "tenth": 300, "quality": 300, "dirty": 60, "adversarial": 20,
+              "tolerance": 120}
 CLOCK_FACTOR = 5
 
 # Model, wanted vertices. The RMS distance shall not be above that of Instant Meshes without crease mode.
@@ -136,6 +141,8 @@ class Checker:
                    "--threads", "1"]
         if case.wanted:
             command += ["--vertices", str(case.wanted)]
+        if self.suite == "tolerance":
+            command += ["--tolerance", f"{100 * TOLERANCE}%"]
         limit = TIME_LIMIT[self.suite]
         limited = ["sh", "-c", 'ulimit -t "$0" && exec "$@"', str(limit), *command]
         started = time.monotonic()
@@ -152,7 +159,7 @@ class Checker:
         if self.suite in BROKEN:  # a broken reference is no measure
             arguments = [output, output, "--no-distance"]
         else:
-            samples = "200000" if self.suite == "quality" else "1000"
+            samples = "200000" if self.suite in ("quality", "tolerance") else "1000"
             arguments = [models.reference(case.path, self.scratch), output, "--samples", samples]
         run = subprocess.run([self.meter, *arguments, "--threads", "1"], capture_output=True,
                              text=True, check=False)
@@ -180,9 +187,11 @@ class Checker:
         self.judge_against_input(case, result)
         if self.suite == "quality":
             self.judge_quality(case, result)
+        if self.suite == "tolerance" and case.measures["distance"]["hausdorff"] > TOLERANCE:
+            case.faults.append(f"{case.measures['distance']['hausdorff']:.3g} of the diagonal away, "
+                               f"not above {TOLERANCE} is wanted")
 
-    @staticmethod
-    def judge_against_input(case, result):
+    def judge_against_input(self, case, result):
         source = case.measures["reference"]
         for key in ("components", "boundary_loops", "genus"):
             if result[key] != source[key]:
@@ -193,7 +202,7 @@ class Checker:
             if table != seen:
                 case.faults.append(f"the input has topology {seen}, MANIFEST.md says {table}")
         concave = concave_percent(result)
-        if concave > MOST_CONCAVE_PERCENT:
+        if self.suite != "tolerance" and concave > MOST_CONCAVE_PERCENT:
             case.faults.append(f"{concave:.2f} % of the faces are concave")
         if case.wanted and abs(result["vertices"] - case.wanted) > COUNT_TOLERANCE * case.wanted:
             case.faults.append(f"{result['vertices']} vertices instead of {case.wanted}")
@@ -224,6 +233,9 @@ def cases_of(suite, folder):
     if suite == "dirty":
         return [Case(path) for path in sorted((folder / "dirty").iterdir()) if path.is_file()]
     sound = [model for model in models.read_manifest(folder) if model.category in CATEGORIES]
+    if suite == "tolerance":
+        return [Case(model.path, model=model) for model in sound
+                if model.vertices <= MOST_VERTICES_WITH_TOLERANCE]
     return [Case(model.path, model.vertices // 10 if suite == "tenth" else 0, model=model)
             for model in sound]
 

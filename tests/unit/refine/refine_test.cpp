@@ -14,6 +14,7 @@
 #include "common/geometry/samples/samples.h"
 #include "stages/refine/split_cells.h"
 #include "stages/refine/surface_points.h"
+#include "stages/refine/way_split.h"
 #include "tests/support/chain.h"
 #include "tests/unit/refine/result_cases.h"
 
@@ -127,6 +128,44 @@ TEST(SplitCells, ConcaveNeighboursAreDivided) {
     EXPECT_FALSE(is_concave_face(result.positions, result.face(f))) << f;
   }
   EXPECT_NEAR(total_area(result), 1, 1e-12);
+}
+
+/// Two faces with two edges in common may both want the diagonal over these edges: only one gets
+/// it.
+TEST(SplitCells, NoDiagonalIsMadeTwice) {
+  PolyMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, -1.2, -1.2}, {2, 0, 0}, {1, 1, 0}, {1, 0, 1}};
+  mesh.add_face(std::array<Index, 4>{0, 1, 2, 3});
+  mesh.add_face(std::array<Index, 4>{0, 4, 2, 1});
+  std::vector<Vec3> positions = mesh.positions;
+  EdgeMarks marks;
+  for (const Index v : {3, 4}) {
+    marks.set(2, v, static_cast<Index>(positions.size()));
+    positions.push_back(v == 3 ? Vec3(1.95, 0.95, 0) : Vec3(1.95, 0, 0.95));
+  }
+  const PolyMesh result =
+      split_cells(mesh, {1, 1}, marks, 5, positions,
+                  [](Index, Index, const std::vector<Index>&) { return kNone; });
+  EXPECT_GT(result.face_count(), 3);
+  EXPECT_TRUE(analyse(result).is_oriented_manifold()) << analyse(result).defects();
+}
+
+/// A ridge between two flat pieces is where to divide, wherever the middle is; a round arc is
+/// divided in the middle, although a corner of its polygon may be a little farther from the chord.
+TEST(WaySplit, IsAtARidgeOrInTheMiddle) {
+  const WayPlace ridge = split_of_way({{0, 0, 0}, {1, 1, 0}, {4, 0, 0}});
+  EXPECT_EQ(ridge.piece, 1U);
+  EXPECT_EQ(ridge.share, 0);
+  std::vector<Vec3> arc;
+  for (int i = 0; i <= 7; ++i) {
+    arc.push_back({std::cos(0.1 * i), std::sin(0.1 * i), 0});
+  }
+  const WayPlace middle = split_of_way(arc);
+  EXPECT_EQ(middle.piece, 3U);
+  EXPECT_NEAR(middle.share, 0.5, 1e-9);
+  // A corner close to an end is no place to divide.
+  EXPECT_EQ(split_of_way({{0, 0, 0}, {0, 0.2, 0}, {3, 0, 0}}).piece, 1U);
+  EXPECT_GT(split_of_way({{0, 0, 0}, {0, 0.2, 0}, {3, 0, 0}}).share, 0.3);
 }
 
 /// A cell that bends one way is cut across that way: 2^n columns and one row. A column of width w
@@ -249,11 +288,11 @@ TEST(SurfacePoints, MiddlesStayOnTheWayOverTheSurface) {
     return SurfacePoint{c.quads.provenance.face[v], c.quads.provenance.barycentric[v]};
   };
   // Vertices 3 and 5 are at y = 0.5, on the two banks; the way between is about 4.1 long.
-  const auto middle = middle_of_section(c.mesh, foot(3), foot(5), Vec3::UnitZ(), 10);
+  const auto middle = split_of_section(c.mesh, foot(3), foot(5), Vec3::UnitZ(), 10);
   ASSERT_TRUE(middle.has_value());
   EXPECT_NEAR(place_of(c.mesh, *middle).z(), -2, 0.01);
   EXPECT_NEAR(place_of(c.mesh, *middle).x(), 0.5, 0.01);
-  EXPECT_FALSE(middle_of_section(c.mesh, foot(3), foot(5), Vec3::UnitZ(), 4).has_value());
+  EXPECT_FALSE(split_of_section(c.mesh, foot(3), foot(5), Vec3::UnitZ(), 4).has_value());
   // On one bank, between vertices 5 and 8, it is the middle of the edge.
   const Vec3 chord = (c.quads.mesh.positions[5] + c.quads.mesh.positions[8]) / 2;
   EXPECT_NEAR(
