@@ -59,8 +59,10 @@ TEST_F(FrontEnd, KeepsAToleranceOrSaysWhereNot) {
     const auto& distance = reports.at("evaluate").at("result").at("distance");
     EXPECT_LE(distance.at("max_share").get<double>(), Length::parse(tolerance).value);
   }
-  must_fail(6, "strake remesh torus.ply -q -o bad.obj --tolerance 0.1% --refine-rounds 0",
-            "from the surface");
+  must_fail(
+      6,
+      "strake remesh torus.ply -q -o bad.obj --tolerance 0.1% --refine-rounds 0 --spacing-scale 3",
+      "from the surface");
 }
 
 /// Of a sphere whose upper half is wanted twice as dense.
