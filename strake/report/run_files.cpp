@@ -43,13 +43,15 @@ class Folder {
   [[nodiscard]] const Found& result() const;
   /// The one of this kind that `result` goes back to, or the only one; nullptr: there is none.
   [[nodiscard]] const Found* source_of(const Found& result, ArtifactKind kind) const;
-  /// Stage records that are about this result or what it was made from.
+  /// Stage records that are about this result or what it was made from; of stages without a report
+  /// what their artifacts say.
   [[nodiscard]] std::vector<Json> records(const Found& result) const;
   [[nodiscard]] const Json& seconds() const { return seconds_; }
   [[nodiscard]] const fs::path& path() const { return path_; }
 
  private:
   void read_json(const fs::path& file);
+  void add_unreported(std::vector<Json>& records) const;
   /// Whether a report of the stage evaluate is about this artifact.
   [[nodiscard]] bool is_judged(const Found& found) const;
 
@@ -150,12 +152,25 @@ const Found* Folder::source_of(const Found& result, ArtifactKind kind) const {
                     " was made from none of them; keep one of them there");
 }
 
+void Folder::add_unreported(std::vector<Json>& records) const {
+  for (const Found& found : artifacts_) {
+    const Provenance& provenance = found.info.provenance;
+    const auto is_known = [&](const Json& record) { return record["stage"] == provenance.stage; };
+    if (std::any_of(records.begin(), records.end(), is_known)) continue;
+    Json record = Json::parse(provenance.to_json());
+    record["result"] = Json::object();
+    record["warnings"] = Json::array();
+    records.push_back(std::move(record));
+  }
+}
+
 std::vector<Json> Folder::records(const Found& result) const {
   std::vector<Json> mine;
   for (const Json& record : records_) {
     const std::string judged = record.value("/inputs/candidate"_json_pointer, result.info.content);
     if (judged == result.info.content) mine.push_back(record);
   }
+  add_unreported(mine);
   std::stable_sort(mine.begin(), mine.end(), [](const Json& a, const Json& b) {
     return stage_place(a["stage"]) < stage_place(b["stage"]);
   });

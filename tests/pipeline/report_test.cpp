@@ -74,6 +74,8 @@ TEST_F(ReportCommand, TakesFilesOfAnyNameAndDoesWithoutTheRest) {
   fs::create_directory(file("own"));
   fs::copy_file(file("run/mesh.hdf"), file("own/the-input.hdf"));
   fs::copy_file(file("run/fitted.hdf"), file("own/the-output.hdf"));
+  must("strake report own -o own.html");
+  EXPECT_NE(bytes("own.html").find("\"feature-angle\":{"), std::string::npos);  // from the artifact
   must("strake report own run -o report.html");
   const std::string page = bytes("report.html");
   EXPECT_NE(page.find("no artifact of kind 'field'"), std::string::npos);
