@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace strake {
 namespace {
@@ -48,12 +49,19 @@ Rows rows_of(const TriMesh& mesh, Index face) {
 }  // namespace
 
 Coverage::Coverage(const TraceDomain& domain)
-    : domain_(domain), wedge_marks_(domain.mesh.wedge_count(), 0) {
+    : domain_(domain),
+      wedge_marks_(domain.mesh.wedge_count(), 0),
+      own_corners_(domain.mesh.face_count(), 0) {
   offsets_.reserve(domain.mesh.face_count() + 1);
   offsets_.push_back(0);
   for (Index f = 0; f < domain.mesh.face_count(); ++f) {
     sample_face(f);
     offsets_.push_back(static_cast<Index>(points_.size()));
+  }
+  std::vector<std::uint8_t> has_corner(wedge_marks_.size(), 0);
+  for (Index h = 0; h < domain.mesh.halfedge_count(); ++h) {
+    if (std::exchange(has_corner[domain.mesh.wedge_of(h)], 1) != 0) continue;
+    own_corners_[TriMesh::face_of(h)] |= static_cast<std::uint8_t>(1 << h % 3);
   }
 }
 
@@ -110,7 +118,9 @@ void Coverage::mark(const std::vector<Index>& faces, const Vec3& point, const Ve
   const TriMesh& mesh = domain_.mesh;
   const double limit = distance * distance;
   for (const Index f : faces) {
+    // Faces around a vertex within the distance are all there, so one of them can see to it.
     for (int i = 0; i < 3; ++i) {
+      if ((own_corners_[f] >> i & 1) == 0) continue;
       const Index w = mesh.face_wedges[f][i];
       if (wedge_marks_[w] == kBothArms) continue;
       if ((mesh.positions[mesh.faces[f][i]] - point).squaredNorm() > limit) continue;

@@ -16,7 +16,7 @@ class Coverage {
   explicit Coverage(const TraceDomain& domain);
 
   /// Marks what lies within `distance` of a point of a line.
-  /// \param faces the faces around the point, as far as the distance reaches
+  /// \param faces  all faces that can be reached from the point over edges within `distance`
   void mark(const std::vector<Index>& faces, const Vec3& point, const Vec3& direction,
             double distance);
 
@@ -61,6 +61,7 @@ class Coverage {
 
   const TraceDomain& domain_;
   std::vector<std::uint8_t> wedge_marks_;  ///< [W] bit 0: along the cross, bit 1: across it
+  std::vector<std::uint8_t> own_corners_;  ///< [F] bits of the corners that stand for their wedges
   std::vector<Index> offsets_;             ///< [F + 1] into points_
   std::vector<Point> points_;
 };

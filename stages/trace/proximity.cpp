@@ -7,6 +7,9 @@
 namespace strake {
 namespace {
 
+/// Share of the largest coordinate by which single precision may round a place, doubled.
+constexpr double kTileRounding = 2.5e-7;
+
 /// From p to the nearest point of segment a-b.
 Vec3 way_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   const Vec3 d = b - a;
@@ -27,27 +30,47 @@ double way_along(const LineSegment& segment, double arc) {
 }  // namespace
 
 ProximityIndex::ProximityIndex(const TriMesh& mesh, const std::vector<std::uint8_t>& barriers)
-    : mesh_(mesh),
-      barriers_(barriers),
-      head_(mesh.face_count(), kNone),
-      stamp_(mesh.face_count(), 0) {}
+    : mesh_(mesh), barriers_(barriers), tiles_(mesh.face_count()), stamp_(mesh.face_count(), 0) {
+  double largest = 0;
+  for (const Vec3& p : mesh.positions) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const auto& [a, b, c] = mesh.faces[f];
+    const Vec3 centre = (mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3;
+    double radius = 0;
+    for (const Index v : mesh.faces[f]) {
+      radius = std::max(radius, (mesh.positions[v] - centre).norm());
+    }
+    Tile& tile = tiles_[f];
+    tile.radius = static_cast<float>(radius + kTileRounding * largest);
+    for (int i = 0; i < 3; ++i) {
+      tile.centre[i] = static_cast<float>(centre[i]);
+      const Index h = 3 * f + i;
+      tile.neighbour[i] = barriers[h] != 0 ? kNone : TriMesh::face_of(mesh.twin[h]);
+    }
+  }
+}
 
 void ProximityIndex::insert(Index face, LineSegment segment) {
-  segment.next = head_[face];
-  head_[face] = static_cast<Index>(segments_.size());
+  segment.next = tiles_[face].head;
+  tiles_[face].head = static_cast<Index>(segments_.size());
   segments_.push_back(segment);
   segment_face_.push_back(face);
 }
 
 void ProximityIndex::remove_last(std::size_t count) {
   for (; count > 0; --count) {
-    head_[segment_face_.back()] = segments_.back().next;
+    tiles_[segment_face_.back()].head = segments_.back().next;
     segments_.pop_back();
     segment_face_.pop_back();
   }
 }
 
-void ProximityIndex::grow_cell(Index face, const Vec3& point, double radius) {
+bool ProximityIndex::is_occupied(const Tile& tile) {
+  return tile.head != kNone || std::ranges::find(tile.neighbour, kNone) != tile.neighbour.end();
+}
+
+/// Collects the faces that can be reached over edges within the radius.
+void ProximityIndex::collect_cell(Index face, const Vec3& point, double radius) {
   if (++current_ == 0) {
     std::fill(stamp_.begin(), stamp_.end(), 0U);
     current_ = 1;
@@ -57,25 +80,34 @@ void ProximityIndex::grow_cell(Index face, const Vec3& point, double radius) {
   const double limit = radius * radius;
   for (std::size_t at = 0; at < cell_.size(); ++at) {
     const Index f = cell_[at];
-    std::array<const Vec3*, 3> corner{};
-    std::array<bool, 3> within{};
+    const Tile& tile = tiles_[f];
+    const double room = radius - tile.radius;
+    const Vec3 centre(tile.centre[0], tile.centre[1], tile.centre[2]);
+    const bool is_within = room > 0 && (centre - point).squaredNorm() <= room * room;
     for (int i = 0; i < 3; ++i) {
-      corner[i] = &mesh_.positions[mesh_.faces[f][i]];
-      within[i] = (*corner[i] - point).squaredNorm() <= limit;
-    }
-    for (int i = 0; i < 3; ++i) {
-      const Index h = 3 * f + i;
-      if (barriers_[h] != 0) continue;
-      const Index other = TriMesh::face_of(mesh_.twin[h]);
-      if (stamp_[other] == current_) continue;
+      const Index other = tile.neighbour[i];
+      if (other == kNone || stamp_[other] == current_) continue;
       // The edge, not its end points alone: large faces have none within reach.
-      const int j = (i + 1) % 3;
-      if (!within[i] && !within[j] && squared_distance(point, *corner[i], *corner[j]) > limit) {
+      if (!is_within && squared_distance(point, mesh_.positions[mesh_.faces[f][i]],
+                                         mesh_.positions[mesh_.faces[f][(i + 1) % 3]]) > limit) {
         continue;
       }
       stamp_[other] = current_;
       cell_.push_back(other);
     }
+  }
+}
+
+void ProximityIndex::grow_cell(Index face, const Vec3& point, double radius) {
+  if (face != cell_face_ || point != cell_point_ || radius != cell_radius_) {
+    collect_cell(face, point, radius);
+    cell_face_ = face;
+    cell_point_ = point;
+    cell_radius_ = radius;
+  }
+  occupied_.clear();
+  for (const Index f : cell_) {
+    if (is_occupied(tiles_[f])) occupied_.push_back(f);
   }
 }
 
@@ -87,8 +119,8 @@ ProximityHit ProximityIndex::query(const ProximityQuery& query) {
   const auto same_direction = [&](const Vec3& d) {
     return std::abs(d.dot(query.direction)) > M_SQRT1_2;
   };
-  for (const Index f : cell_) {
-    for (Index s = head_[f]; s != kNone; s = segments_[s].next) {
+  for (const Index f : occupied_) {
+    for (Index s = tiles_[f].head; s != kNone; s = segments_[s].next) {
       const LineSegment& segment = segments_[s];
       const bool own = segment.line == query.own_line;
       if (own && way_along(segment, query.own_arc) < query.own_skip) continue;
@@ -128,8 +160,8 @@ std::pair<double, double> ProximityIndex::distances_beside(const ProximityQuery&
     double& side = way.dot(left) > 0 ? nearest.first : nearest.second;
     side = std::min(side, way.norm());
   };
-  for (const Index f : cell_) {
-    for (Index s = head_[f]; s != kNone; s = segments_[s].next) {
+  for (const Index f : occupied_) {
+    for (Index s = tiles_[f].head; s != kNone; s = segments_[s].next) {
       if (segments_[s].line == query.own_line) continue;
       consider(segments_[s].a, segments_[s].b, segments_[s].direction);
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "common/core/line_set.h"
@@ -69,16 +70,31 @@ class ProximityIndex {
   [[nodiscard]] std::uint64_t query_count() const { return query_count_; }
 
  private:
+  /// What walking over a face takes, side by side in memory: most of a cell's faces lie within it
+  /// as a whole, and need no look at their corners.
+  struct Tile {
+    std::array<float, 3> centre;
+    float radius;                    ///< of a ball around `centre` that holds the face, rounded up
+    std::array<Index, 3> neighbour;  ///< face across each edge; kNone at barriers
+    Index head = kNone;              ///< first segment
+  };
+
   void grow_cell(Index face, const Vec3& point, double radius);
+  void collect_cell(Index face, const Vec3& point, double radius);
+  [[nodiscard]] static bool is_occupied(const Tile& tile);
 
   const TriMesh& mesh_;
   const std::vector<std::uint8_t>& barriers_;
   std::vector<LineSegment> segments_;
   std::vector<Index> segment_face_;
-  std::vector<Index> head_;           ///< [F] first segment of each face
+  std::vector<Tile> tiles_;           ///< [F]
   std::vector<std::uint32_t> stamp_;  ///< [F] cell the face was last part of
   std::uint32_t current_ = 0;
+  Index cell_face_ = kNone;  ///< what the cell was grown from
+  Vec3 cell_point_ = Vec3::Zero();
+  double cell_radius_ = 0;
   std::vector<Index> cell_;
+  std::vector<Index> occupied_;  ///< faces of the cell with segments or barriers
   std::uint64_t query_count_ = 0;
 };
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <queue>
+#include <limits>
+#include <numeric>
+#include <optional>
 
 #include "common/geometry/frames.h"
 #include "common/geometry/mesh_measures.h"
@@ -28,30 +30,59 @@ Index key_of_arm(const PrincipalField& field, Index w, const Vec3& direction) {
   return c * c >= 0.5 * flat.squaredNorm() ? 2 * w : 2 * w + 1;
 }
 
-/// Calls use(key, other key, distance) for all pairs of values that bound each other.
+/// Calls use(wedge, other wedge, 1 where their crosses are turned, half-edge) for all edges within
+/// a smooth piece of surface, once in each direction.
 template <class Use>
 void for_each_bond(const TriMesh& mesh, const PrincipalField& field, const Use& use) {
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
     if (mesh.twin[h] != kNone && mesh.twin[h] < h && mesh.is_feature[h] == 0) continue;
     const Index v = mesh.wedge_of(h);
     const Index w = mesh.wedge_of(TriMesh::next(h));
-    const Vec3 edge = mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)];
-    const double distance = edge.norm();
     const Vec3 arm = rotate_between(field.normal[v], field.normal[w], field.cross[v]);
     const Index turned = std::abs(arm.dot(field.cross[w])) >= M_SQRT1_2 ? 0 : 1;
-    for (const Index side : {0, 1}) {
-      use(2 * v + side, 2 * w + (side ^ turned), distance);
-      use(2 * w + (side ^ turned), 2 * v + side, distance);
-    }
-    if (mesh.is_feature[h] == 0) continue;
-    // Distances along a feature line are the same on its two sides, so that lines can cross it.
-    const Index opposite = mesh.wedge_of(TriMesh::next(mesh.twin[h]));
-    const Index here = key_of_arm(field, v, edge);
-    const Index there = key_of_arm(field, opposite, edge);
-    use(here, there, 0.0);
-    use(there, here, 0.0);
+    use(v, w, turned, h);
+    use(w, v, turned, h);
   }
 }
+
+/// Keys in the order of their values, roughly: by intervals. No value may be added that is below
+/// those taken out last.
+class KeyQueue {
+ public:
+  /// \param width  of the intervals; they are wider where there would be too many
+  KeyQueue(double least, double largest, double width)
+      : least_(least),
+        per_width_(1 / std::max({width, (largest - least) / kMostIntervals,
+                                 std::numeric_limits<double>::min()})),
+        keys_(interval_of(largest) + 1) {}
+
+  void push(double value, Index key) { keys_[interval_of(value)].push_back(key); }
+
+  /// Takes a key out whose value is in the first interval that is not empty.
+  /// \param value  [keys] the present ones; keys whose value has fallen since are left out
+  std::optional<Index> pop(const std::vector<double>& value) {
+    for (; first_ < keys_.size(); std::vector<Index>().swap(keys_[first_++])) {
+      while (!keys_[first_].empty()) {
+        const Index key = keys_[first_].back();
+        keys_[first_].pop_back();
+        if (interval_of(value[key]) == first_) return key;
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  static constexpr double kMostIntervals = 1 << 16;
+
+  [[nodiscard]] std::size_t interval_of(double value) const {
+    return static_cast<std::size_t>((value - least_) * per_width_);
+  }
+
+  double least_;
+  double per_width_;
+  std::vector<std::vector<Index>> keys_;
+  std::size_t first_ = 0;
+};
 
 }  // namespace
 
@@ -78,14 +109,38 @@ SpacingModel::SpacingModel(const TriMesh& mesh, const PrincipalField& field, con
     curvature_along_[w] = normal_curvature(field, w, field.cross[w]);
     curvature_across_[w] = normal_curvature(field, w, field.normal[w].cross(field.cross[w]));
   }
-  offsets_.assign(2 * static_cast<std::size_t>(n) + 1, 0);
-  for_each_bond(mesh, field, [&](Index key, Index, double) { ++offsets_[key + 1]; });
-  for (std::size_t key = 1; key < offsets_.size(); ++key) offsets_[key] += offsets_[key - 1];
-  neighbours_.resize(offsets_.back());
+  collect_bonds();
+}
+
+void SpacingModel::collect_bonds() {
+  offsets_.assign(static_cast<std::size_t>(mesh_.wedge_count()) + 1, 0);
+  for_each_bond(mesh_, field_, [&](Index w, Index, Index, Index) { ++offsets_[w + 1]; });
+  for (std::size_t w = 1; w < offsets_.size(); ++w) offsets_[w] += offsets_[w - 1];
+  bonded_.resize(offsets_.back());
+  distances_.resize(offsets_.back());
   std::vector<Index> fill(offsets_.begin(), offsets_.end() - 1);
-  for_each_bond(mesh, field, [&](Index key, Index other, double distance) {
-    neighbours_[fill[key]++] = {other, distance};
+  for_each_bond(mesh_, field_, [&](Index w, Index other, Index turned, Index h) {
+    distances_[fill[w]] = (mesh_.positions[mesh_.to(h)] - mesh_.positions[mesh_.from(h)]).norm();
+    bonded_[fill[w]++] = 2 * other + turned;
   });
+  for (Index h = 0; h < mesh_.halfedge_count(); ++h) {
+    if (mesh_.is_feature[h] == 0) continue;
+    const Vec3 edge = mesh_.positions[mesh_.to(h)] - mesh_.positions[mesh_.from(h)];
+    const Index here = key_of_arm(field_, mesh_.wedge_of(h), edge);
+    const Index there = key_of_arm(field_, mesh_.wedge_of(TriMesh::next(mesh_.twin[h])), edge);
+    ties_.emplace_back(here, there);
+    ties_.emplace_back(there, here);
+  }
+  std::sort(ties_.begin(), ties_.end());
+}
+
+template <class Use>
+void SpacingModel::for_bounded(Index key, const Use& use) const {
+  for (Index at = offsets_[key / 2]; at < offsets_[key / 2 + 1]; ++at) {
+    use(bonded_[at] ^ (key & 1), distances_[at]);
+  }
+  auto tie = std::lower_bound(ties_.begin(), ties_.end(), std::pair{key, Index{0}});
+  for (; tie != ties_.end() && tie->first == key; ++tie) use(tie->second, 0.0);
 }
 
 void SpacingModel::bound_along(const std::vector<Index>& halfedges, double length) {
@@ -142,33 +197,30 @@ void SpacingModel::grade(const SpacingLimits& limits, Spacing& spacing) const {
     const auto [small, large] = std::minmax(spacing.along[w], spacing.across[w]);
     aspect[w] = std::max(kGradedAspect, large / small);
   }
-  using Entry = std::pair<double, Index>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  const auto relax_from = [&](Index key) {
-    const double here = value[key];
+  // Whatever the order, the same values come out; ascending ones save work.
+  const auto [least, largest] = std::ranges::minmax(value);
+  const double mean_distance = std::accumulate(distances_.begin(), distances_.end(), 0.0) /
+                               static_cast<double>(std::max<std::size_t>(1, distances_.size()));
+  KeyQueue queue(least, largest, limits.gradation * mean_distance);
+  // Start from the values that bound another now; the rest follows in order of size.
+  for (Index key = 0; key < keys; ++key) {
+    bool bounds = aspect[key / 2] * value[key] < value[key ^ 1];
+    for_bounded(key, [&](Index other, double distance) {
+      bounds = bounds || value[key] + limits.gradation * distance < value[other];
+    });
+    if (bounds) queue.push(value[key], key);
+  }
+  while (const std::optional<Index> next = queue.pop(value)) {
+    const Index key = *next;
     const auto lower = [&](Index target, double reach) {
       if (!(reach < value[target])) return;
       value[target] = reach;
-      queue.emplace(reach, target);
+      queue.push(reach, target);
     };
-    lower(key ^ 1, aspect[key / 2] * here);
-    for (Index at = offsets_[key]; at < offsets_[key + 1]; ++at) {
-      lower(neighbours_[at].key, here + limits.gradation * neighbours_[at].distance);
-    }
-  };
-  // Start from the values that bound a neighbour now; the rest follows in order of size.
-  for (Index key = 0; key < keys; ++key) {
-    bool bounds = aspect[key / 2] * value[key] < value[key ^ 1];
-    for (Index at = offsets_[key]; at < offsets_[key + 1] && !bounds; ++at) {
-      bounds =
-          value[key] + limits.gradation * neighbours_[at].distance < value[neighbours_[at].key];
-    }
-    if (bounds) queue.emplace(value[key], key);
-  }
-  while (!queue.empty()) {
-    const auto [reached, key] = queue.top();
-    queue.pop();
-    if (reached <= value[key]) relax_from(key);
+    lower(key ^ 1, aspect[key / 2] * value[key]);
+    for_bounded(key, [&](Index other, double distance) {
+      lower(other, value[key] + limits.gradation * distance);
+    });
   }
   for (std::size_t w = 0; w < areas_.size(); ++w) {
     spacing.along[w] = value[2 * w];

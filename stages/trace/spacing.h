@@ -52,12 +52,10 @@ class SpacingModel {
   [[nodiscard]] const std::vector<double>& areas() const { return areas_; }
 
  private:
-  /// A wedge beside another, or the same vertex's wedge across a feature line.
-  struct Neighbour {
-    Index key = kNone;    ///< value that is bounded by the own one: see `keys`
-    double distance = 0;  ///< on the surface
-  };
-
+  void collect_bonds();
+  /// Calls use(other key, distance) for all values that the one of a key bounds.
+  template <class Use>
+  void for_bounded(Index key, const Use& use) const;
   [[nodiscard]] Spacing ungraded(double tolerance, const SpacingLimits& limits) const;
   void grade(const SpacingLimits& limits, Spacing& spacing) const;
 
@@ -71,8 +69,12 @@ class SpacingModel {
   std::vector<double> curvature_across_;          ///< [W]
   /// Keys are 2 w for the distance along the cross of wedge w and 2 w + 1 for the one across it.
   /// The arms of neighbouring crosses are matched by direction.
-  std::vector<Index> offsets_;  ///< [2 W + 1]
-  std::vector<Neighbour> neighbours_;
+  std::vector<Index> offsets_;     ///< [W + 1] into the next two
+  std::vector<Index> bonded_;      ///< 2 w, or 2 w + 1 where the cross of wedge w is turned
+  std::vector<double> distances_;  ///< on the surface
+  /// Keys of distances along a feature line, which are the same on its two sides, so that lines can
+  /// cross it; ascending.
+  std::vector<std::pair<Index, Index>> ties_;
 };
 
 }  // namespace strake
