@@ -30,6 +30,8 @@ constexpr int kFittedRefinements = 2;
 /// at which share of their distances.
 constexpr int kCloserLines = 2;
 constexpr double kCloser = 0.6;
+/// Rounds of fitting before errors are fed back: enough to see where they will stay.
+constexpr int kFeedbackFitRounds = 3;
 
 std::int64_t count_of(const Session& session, const char* port, Counted counted) {
   const PolyMesh& mesh = session.get<QuadMesh>(port).mesh;
@@ -46,7 +48,11 @@ void trace_and_mesh(Session& session, const GoalStages& stages) {
 /// Wants other distances between lines where the present result is too far from the surface, and
 /// corrects the scale of all of them by the count.
 void feed_back(Session& session, const GoalStages& stages, Counted counted, std::int64_t aim) {
+  const Option& rounds = stages.fit.option("fit-rounds");
+  const std::string all_rounds = rounds.value();
+  rounds.parse_into(std::to_string(std::min(kFeedbackFitRounds, std::stoi(all_rounds))));
   session.run(stages.fit);
+  rounds.parse_into(all_rounds);
   session.run(stages.size);
   const Option& scale = stages.trace.option("spacing-scale");
   const double excess =

@@ -78,8 +78,11 @@ std::vector<Vec3> face_normals(const TriMesh& mesh) {
 
 std::vector<Vec3> wedge_normals(const TriMesh& mesh, const std::vector<Vec3>& face_normals) {
   std::vector<Vec3> normals(mesh.wedge_count(), Vec3::Zero());
+  std::vector<double> angles(static_cast<std::size_t>(mesh.halfedge_count()));
+  tbb::parallel_for(Index{0}, mesh.halfedge_count(),
+                    [&](Index h) { angles[h] = corner_angle(mesh, h); });
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
-    normals[mesh.wedge_of(h)] += face_normals[TriMesh::face_of(h)] * corner_angle(mesh, h);
+    normals[mesh.wedge_of(h)] += face_normals[TriMesh::face_of(h)] * angles[h];
   }
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
     Vec3& n = normals[mesh.wedge_of(h)];

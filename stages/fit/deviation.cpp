@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "common/geometry/mesh_measures.h"
 
@@ -30,7 +29,6 @@ constexpr std::array<Quadrature, 6> kRule = {{{0.223381589678011, {kA, kB, kB}},
 
 /// Samples whose nearest surface faces another way belong to another sheet.
 constexpr double kLeastAgreement = 0.5;
-constexpr double kBoundMargin = 1e-9;  ///< keeps rounding from making a bound too tight
 /// Shorter ways, as a share of the diagonal, have no direction of their own.
 constexpr double kNoWay = 1e-12;
 /// Samples of the surface for each triangle of the result, at most.
@@ -44,19 +42,49 @@ void set_way(DistanceSample& sample, const Vec3& way, const Vec3& normal, double
   sample.distance = way.dot(sample.direction);
 }
 
+/// The least-squares problem of samples on one triangle.
+class TriangleTerms {
+ public:
+  void add(const DistanceSample& sample) {
+    const Vec3 weighted = sample.weight * sample.direction;
+    const Mat3 along = weighted * sample.direction.transpose();
+    int pair = 0;
+    for (int i = 0; i < 3; ++i) {
+      right_[i] += sample.at[i] * sample.distance * weighted;
+      for (int j = i; j < 3; ++j) blocks_[pair++] += sample.at[i] * sample.at[j] * along;
+    }
+  }
+
+  void add_to(BlockSystem& system, const std::array<Index, 3>& corners) const {
+    int pair = 0;
+    for (int i = 0; i < 3; ++i) {
+      system.add_right(corners[i], right_[i]);
+      for (int j = i; j < 3; ++j, ++pair) {
+        system.add(corners[i], corners[j], blocks_[pair]);
+        if (i != j) system.add(corners[j], corners[i], blocks_[pair]);
+      }
+    }
+  }
+
+ private:
+  std::array<Mat3, 6> blocks_ = {Mat3::Zero(), Mat3::Zero(), Mat3::Zero(),
+                                 Mat3::Zero(), Mat3::Zero(), Mat3::Zero()};  ///< symmetric
+  std::array<Vec3, 3> right_ = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+};
+
 }  // namespace
 
-Deviation::Deviation(const TriMesh& mesh, const SurfaceDistance& surface)
+Deviation::Deviation(const TriMesh& mesh, const SurfaceDistance& surface,
+                     const std::vector<Vec3>& face_normals, const std::vector<Vec3>& wedge_normals)
     : mesh_(mesh),
       surface_(surface),
-      face_normals_(face_normals(mesh)),
+      face_normals_(face_normals),
       vertex_normals_(mesh.positions.size(), Vec3::Zero()),
       vertex_areas_(mesh.positions.size(), 0.0) {
   const std::vector<double> areas = wedge_areas(mesh);
-  const std::vector<Vec3> normals = wedge_normals(mesh, face_normals_);
   for (Index w = 0; w < mesh.wedge_count(); ++w) {
     vertex_areas_[mesh.wedge_vertex[w]] += areas[w];
-    vertex_normals_[mesh.wedge_vertex[w]] += normals[w];
+    vertex_normals_[mesh.wedge_vertex[w]] += wedge_normals[w];
   }
   for (Vec3& normal : vertex_normals_) normal.normalize();
 }
@@ -69,11 +97,7 @@ void Deviation::measure(const std::vector<Vec3>& positions,
 
 void Deviation::measure_result(const std::vector<Vec3>& positions,
                                const std::vector<std::array<Index, 3>>& triangles) {
-  if (from_result_.empty()) {
-    DistanceSample unknown;
-    unknown.distance = std::numeric_limits<double>::infinity();
-    from_result_.assign(triangles.size() * kRule.size(), unknown);
-  }
+  from_result_.resize(triangles.size() * kRule.size());
   tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t t) {
     const auto& corners = triangles[t];
     const Vec3& a = positions[corners[0]];
@@ -86,11 +110,13 @@ void Deviation::measure_result(const std::vector<Vec3>& positions,
       const auto& at = kRule[s].at;
       const Vec3 place = at[0] * a + at[1] * b + at[2] * c;
       if (own.corners == corners && own.place == place) continue;
-      // No farther than the last distance and the way since then.
-      const double bound = std::abs(own.distance) + (place - own.place).norm();
-      const ClosestPoint nearest = surface_.closest_within(
-          place, (1 + kBoundMargin) * bound + kBoundMargin * mesh_.diagonal);
-      own = {place, nearest.distance, Vec3::Zero(), kRule[s].weight * area2 / 2, corners, at};
+      // The first time the sample before is the best guess.
+      const Index guess = own.nearest == kNone && s > 0
+                              ? from_result_[t * kRule.size() + s - 1].nearest
+                              : own.nearest;
+      const ClosestPoint nearest = surface_.closest_near(place, guess);
+      own = {place, nearest.distance, Vec3::Zero(), kRule[s].weight * area2 / 2, corners,
+             at,    nearest.triangle};
       const Vec3& normal = face_normals_[nearest.triangle];
       if (!(normal.dot(cross) > kLeastAgreement * area2)) continue;
       set_way(own, surface_.point(nearest) - place, normal, kNoWay * mesh_.diagonal);
@@ -106,13 +132,14 @@ void Deviation::measure_surface(const std::vector<Vec3>& positions,
   tbb::parallel_for(std::size_t{0}, from_surface_.size(), [&](std::size_t s) {
     const std::size_t v = s * step;
     const Vec3& place = mesh_.positions[v];
-    const ClosestPoint nearest = result.closest(place);
+    DistanceSample& own = from_surface_[s];
+    const ClosestPoint nearest = result.closest_near(place, own.nearest);
     const auto& corners = triangles[nearest.triangle];
     const Vec3& a = positions[corners[0]];
     const Vec3 cross = (positions[corners[1]] - a).cross(positions[corners[2]] - a);
-    DistanceSample& own = from_surface_[s];
-    own = {place,   nearest.distance,   Vec3::Zero(), vertex_areas_[v] * static_cast<double>(step),
-           corners, nearest.barycentric};
+    own = {
+        place,   nearest.distance,    Vec3::Zero(),    vertex_areas_[v] * static_cast<double>(step),
+        corners, nearest.barycentric, nearest.triangle};
     const Vec3& normal = vertex_normals_[v];
     if (!(normal.dot(cross) > kLeastAgreement * cross.norm())) return;
     set_way(own, place - result.point(nearest), normal, kNoWay * mesh_.diagonal);
@@ -136,16 +163,16 @@ double Deviation::mean() const {
 }
 
 void Deviation::add_to(BlockSystem& system) const {
-  for (const auto* samples : {&from_result_, &from_surface_}) {
-    for (const DistanceSample& s : *samples) {
-      const Mat3 along = s.weight * s.direction * s.direction.transpose();
-      for (int i = 0; i < 3; ++i) {
-        system.add_right(s.corners[i], s.weight * s.at[i] * s.distance * s.direction);
-        for (int j = 0; j < 3; ++j) {
-          system.add(s.corners[i], s.corners[j], s.at[i] * s.at[j] * along);
-        }
-      }
-    }
+  // The six samples of a triangle concern the same vertices: their sum is looked up once.
+  for (std::size_t first = 0; first < from_result_.size(); first += kRule.size()) {
+    TriangleTerms terms;
+    for (std::size_t s = first; s < first + kRule.size(); ++s) terms.add(from_result_[s]);
+    terms.add_to(system, from_result_[first].corners);
+  }
+  for (const DistanceSample& s : from_surface_) {
+    TriangleTerms terms;
+    terms.add(s);
+    terms.add_to(system, s.corners);
   }
 }
 

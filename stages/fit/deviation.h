@@ -18,6 +18,7 @@ struct DistanceSample {
   double weight = 0;              ///< area that it stands for
   std::array<Index, 3> corners = {kNone, kNone, kNone};  ///< of the result's triangle there
   std::array<double, 3> at = {0, 0, 0};                  ///< barycentric, in that triangle
+  Index nearest = kNone;  ///< triangle that was nearest, of the surface or of the result
 };
 
 /// The distance between a result and the surface, both ways, as a sum of squares.
@@ -30,7 +31,10 @@ struct DistanceSample {
 class Deviation {
  public:
   /// \param mesh, surface  the input and its faces, in the same order
-  Deviation(const TriMesh& mesh, const SurfaceDistance& surface);
+  /// \param face_normals   [F] of the input; kept by reference
+  /// \param wedge_normals  [W] of the input
+  Deviation(const TriMesh& mesh, const SurfaceDistance& surface,
+            const std::vector<Vec3>& face_normals, const std::vector<Vec3>& wedge_normals);
 
   /// Measures from all samples again. \param triangles  as many as the last time
   void measure(const std::vector<Vec3>& positions,
@@ -51,7 +55,7 @@ class Deviation {
 
   const TriMesh& mesh_;
   const SurfaceDistance& surface_;
-  std::vector<Vec3> face_normals_;           ///< of the input
+  const std::vector<Vec3>& face_normals_;    ///< of the input
   std::vector<Vec3> vertex_normals_;         ///< of the input
   std::vector<double> vertex_areas_;         ///< of the input
   std::vector<DistanceSample> from_result_;  ///< six for each triangle

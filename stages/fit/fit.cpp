@@ -49,7 +49,7 @@ class Fit {
         field_(field),
         surface_(mesh.positions, mesh.faces),
         places_(mesh, surface_, quads),
-        deviation_(mesh, surface_),
+        deviation_(mesh, surface_, places_.face_normals(), places_.wedge_normals()),
         lines_(quads.mesh),
         guard_(quads.mesh, places_),
         system_(lines_.neighbours()) {

@@ -15,7 +15,6 @@ namespace {
 constexpr double kOnEdge = 1e-9;
 /// A foot stays on a sheet whose normal is within 60 degrees of the last one.
 constexpr double kLeastAgreement = 0.5;
-constexpr double kBoundMargin = 1e-9;  ///< of bounds on distances
 
 }  // namespace
 
@@ -23,8 +22,8 @@ VertexPlaces::VertexPlaces(const TriMesh& mesh, const SurfaceDistance& surface,
                            const QuadMesh& quads)
     : mesh_(mesh),
       surface_(surface),
-      face_normals_(face_normals(mesh)),
-      wedge_normals_(wedge_normals(mesh, face_normals_)),
+      face_normals_(strake::face_normals(mesh)),
+      wedge_normals_(strake::wedge_normals(mesh, face_normals_)),
       positions_(quads.mesh.positions),
       normals_(positions_.size()),
       lines_(positions_.size()),
@@ -170,9 +169,10 @@ void VertexPlaces::update_feet() {
       foot_[v][i] = 1 - lines_[v].along;
       foot_[v][(i + 1) % 3] = lines_[v].along;
     } else if (lines_[v].kind == Kind::free) {
-      const Vec3 foot = surface_.point({foot_face_[v], 0, foot_[v]});
-      const double bound =
-          (1 + kBoundMargin) * (positions_[v] - foot).norm() + kBoundMargin * mesh_.diagonal;
+      const auto& [a, b, c] = mesh_.faces[foot_face_[v]];
+      const double bound = closest_point_on_triangle(positions_[v], mesh_.positions[a],
+                                                     mesh_.positions[b], mesh_.positions[c])
+                               .distance;
       const Vec3 side = face_normals_[foot_face_[v]];
       const ClosestPoint nearest = surface_.closest_if(positions_[v], bound, [&](Index f) {
         return f == foot_face_[v] || face_normals_[f].dot(side) > kLeastAgreement;

@@ -25,6 +25,9 @@ class VertexPlaces {
   [[nodiscard]] const std::vector<Vec3>& positions() const { return positions_; }
   /// Unit normal of the surface at the vertex's foot.
   [[nodiscard]] const Vec3& normal(Index v) const { return normals_[v]; }
+  /// Of the input: [F], [W] unit.
+  [[nodiscard]] const std::vector<Vec3>& face_normals() const { return face_normals_; }
+  [[nodiscard]] const std::vector<Vec3>& wedge_normals() const { return wedge_normals_; }
   [[nodiscard]] bool is_free(Index v) const { return lines_[v].kind == Kind::free; }
   [[nodiscard]] bool is_on_line(Index v) const { return lines_[v].kind == Kind::line; }
   /// Unit direction of the line that the vertex slides along. \pre is_on_line(v)

@@ -16,11 +16,39 @@ namespace {
 // a safe margin.
 constexpr double kFloatMargin = 1e-6;
 
+/// Squared sine of an angle below which scalar products cancel too much.
+constexpr double kThin = 1e-4;
+
 ClosestPoint closest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   const Vec3 ab = b - a;
   const double length2 = ab.squaredNorm();
   const double t = length2 > 0 ? std::clamp((p - a).dot(ab) / length2, 0.0, 1.0) : 0.0;
   return {kNone, (p - a - t * ab).norm(), {1 - t, t, 0}};
+}
+
+/// Slower, for any triangle: also one without area.
+ClosestPoint closest_on_thin_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 normal = (b - a).cross(c - a);
+  const double area2 = normal.squaredNorm();
+  if (area2 > 0) {
+    const double u = normal.dot((b - p).cross(c - p)) / area2;
+    const double v = normal.dot((c - p).cross(a - p)) / area2;
+    const double w = 1 - u - v;
+    if (u >= 0 && v >= 0 && w >= 0) {
+      return {kNone, std::abs((p - a).dot(normal)) / std::sqrt(area2), {u, v, w}};
+    }
+  }
+  const ClosestPoint on_ab = closest_on_segment(p, a, b);
+  const ClosestPoint on_bc = closest_on_segment(p, b, c);
+  const ClosestPoint on_ca = closest_on_segment(p, c, a);
+  ClosestPoint best = on_ab;
+  if (on_bc.distance < best.distance) {
+    best = {kNone, on_bc.distance, {0, on_bc.barycentric[0], on_bc.barycentric[1]}};
+  }
+  if (on_ca.distance < best.distance) {
+    best = {kNone, on_ca.distance, {on_ca.barycentric[1], 0, on_ca.barycentric[0]}};
+  }
+  return best;
 }
 
 /// What a query carries through the hierarchy.
@@ -72,28 +100,45 @@ struct SurfaceDistance::Hierarchy {
   }
 };
 
+// Ericson, Real-Time Collision Detection, 2005, section 5.1.5: which feature is nearest follows
+// from the signs of six scalar products.
 ClosestPoint closest_point_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 normal = (b - a).cross(c - a);
-  const double area2 = normal.squaredNorm();
-  if (area2 > 0) {
-    const double u = normal.dot((b - p).cross(c - p)) / area2;
-    const double v = normal.dot((c - p).cross(a - p)) / area2;
-    const double w = 1 - u - v;
-    if (u >= 0 && v >= 0 && w >= 0) {
-      return {kNone, std::abs((p - a).dot(normal)) / std::sqrt(area2), {u, v, w}};
-    }
+  const Vec3 ab = b - a;
+  const Vec3 ac = c - a;
+  if (!(ab.cross(ac).squaredNorm() > kThin * ab.squaredNorm() * ac.squaredNorm())) {
+    return closest_on_thin_triangle(p, a, b, c);
   }
-  const ClosestPoint on_ab = closest_on_segment(p, a, b);
-  const ClosestPoint on_bc = closest_on_segment(p, b, c);
-  const ClosestPoint on_ca = closest_on_segment(p, c, a);
-  ClosestPoint best = on_ab;
-  if (on_bc.distance < best.distance) {
-    best = {kNone, on_bc.distance, {0, on_bc.barycentric[0], on_bc.barycentric[1]}};
+  const Vec3 ap = p - a;
+  const double ab_a = ab.dot(ap);
+  const double ac_a = ac.dot(ap);
+  if (ab_a <= 0 && ac_a <= 0) return {kNone, ap.norm(), {1, 0, 0}};
+  const Vec3 bp = p - b;
+  const double ab_b = ab.dot(bp);
+  const double ac_b = ac.dot(bp);
+  if (ab_b >= 0 && ac_b <= ab_b) return {kNone, bp.norm(), {0, 1, 0}};
+  const Vec3 cp = p - c;
+  const double ab_c = ab.dot(cp);
+  const double ac_c = ac.dot(cp);
+  if (ac_c >= 0 && ab_c <= ac_c) return {kNone, cp.norm(), {0, 0, 1}};
+  const double along_c = ab_a * ac_b - ab_b * ac_a;  // the barycentric coordinate of c, times area
+  if (along_c <= 0 && ab_a >= 0 && ab_b <= 0) {
+    const double t = ab_a / (ab_a - ab_b);
+    return {kNone, (ap - t * ab).norm(), {1 - t, t, 0}};
   }
-  if (on_ca.distance < best.distance) {
-    best = {kNone, on_ca.distance, {on_ca.barycentric[1], 0, on_ca.barycentric[0]}};
+  const double along_b = ab_c * ac_a - ab_a * ac_c;
+  if (along_b <= 0 && ac_a >= 0 && ac_c <= 0) {
+    const double t = ac_a / (ac_a - ac_c);
+    return {kNone, (ap - t * ac).norm(), {1 - t, 0, t}};
   }
-  return best;
+  const double along_a = ab_b * ac_c - ab_c * ac_b;
+  if (along_a <= 0 && ac_b >= ab_b && ab_c >= ac_c) {
+    const double t = (ac_b - ab_b) / ((ac_b - ab_b) + (ab_c - ac_c));
+    return {kNone, (bp - t * (c - b)).norm(), {0, 1 - t, t}};
+  }
+  const double sum = along_a + along_b + along_c;
+  const double v = along_b / sum;
+  const double w = along_c / sum;
+  return {kNone, (ap - v * ab - w * ac).norm(), {1 - v - w, v, w}};
 }
 
 SurfaceDistance::SurfaceDistance(std::vector<Vec3> positions,
@@ -133,31 +178,39 @@ SurfaceDistance::SurfaceDistance(std::vector<Vec3> positions,
 
 SurfaceDistance::~SurfaceDistance() = default;
 
-ClosestPoint SurfaceDistance::closest(const Vec3& p) const {
-  return query(p, std::numeric_limits<double>::infinity(), nullptr);
+ClosestPoint SurfaceDistance::on_triangle(const Vec3& p, Index triangle) const {
+  const auto& [a, b, c] = triangles_[triangle];
+  ClosestPoint found = closest_point_on_triangle(p, positions_[a], positions_[b], positions_[c]);
+  found.triangle = triangle;
+  return found;
+}
+
+ClosestPoint SurfaceDistance::closest(const Vec3& p) const { return query(p, {}, nullptr); }
+
+ClosestPoint SurfaceDistance::closest_near(const Vec3& p, Index guess) const {
+  return query(p, guess == kNone ? ClosestPoint{} : on_triangle(p, guess), nullptr);
 }
 
 ClosestPoint SurfaceDistance::closest_within(const Vec3& p, double reach) const {
-  return query(p, reach, nullptr);
+  return query(p, {kNone, reach, {}}, nullptr);
 }
 
 ClosestPoint SurfaceDistance::closest_if(const Vec3& p, double reach,
                                          const std::function<bool(Index)>& accept) const {
-  return query(p, reach, &accept);
+  return query(p, {kNone, reach, {}}, &accept);
 }
 
-ClosestPoint SurfaceDistance::query(const Vec3& p, double reach,
+ClosestPoint SurfaceDistance::query(const Vec3& p, const ClosestPoint& best,
                                     const std::function<bool(Index)>* accept) const {
   const Vec3 local = scale_ * (p - centre_);
-  Search search{this, accept, p, scale_, 0, {}};
+  Search search{this, accept, p, scale_, 0, best};
   search.margin = kFloatMargin * std::max(1.0, local.cwiseAbs().maxCoeff());
-  search.best.distance = reach;
 
   RTCPointQuery query = {};
   query.x = static_cast<float>(local.x());
   query.y = static_cast<float>(local.y());
   query.z = static_cast<float>(local.z());
-  query.radius = static_cast<float>((reach * scale_ + search.margin) * (1 + 1e-6));
+  query.radius = static_cast<float>((best.distance * scale_ + search.margin) * (1 + 1e-6));
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   rtcPointQuery(hierarchy_->scene, &query, &context, nullptr, &search);

@@ -38,6 +38,8 @@ class SurfaceDistance {
 
   /// The nearest point of the surface.
   [[nodiscard]] ClosestPoint closest(const Vec3& p) const;
+  /// The same, faster the nearer the point is to triangle `guess`; kNone: no guess.
+  [[nodiscard]] ClosestPoint closest_near(const Vec3& p, Index guess) const;
   /// The nearest point that is at most `reach` away; faster the smaller that is.
   [[nodiscard]] ClosestPoint closest_within(const Vec3& p, double reach) const;
 
@@ -54,7 +56,10 @@ class SurfaceDistance {
  private:
   struct Hierarchy;
 
-  [[nodiscard]] ClosestPoint query(const Vec3& p, double reach,
+  [[nodiscard]] ClosestPoint on_triangle(const Vec3& p, Index triangle) const;
+  /// \param best  what is known already: the triangle kNone and a distance that is not exceeded, or
+  ///              a point of the surface
+  [[nodiscard]] ClosestPoint query(const Vec3& p, const ClosestPoint& best,
                                    const std::function<bool(Index)>* accept) const;
 
   std::vector<Vec3> positions_;
