@@ -1,5 +1,7 @@
 #include "stages/tensor/ball.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +10,11 @@
 namespace strake {
 namespace {
 
+/// Share of its coordinates by which single precision may round a place, doubled.
+constexpr double kTileRounding = 2.5e-7;
+/// Share of the ball's radius up to which that of a face is small against it.
+constexpr double kSmallFace = 0.25;
+
 double squared_distance_to_segment(const Vec3& a, const Vec3& b) {
   const Vec3 d = b - a;
   const double length = d.squaredNorm();
@@ -15,10 +22,23 @@ double squared_distance_to_segment(const Vec3& a, const Vec3& b) {
   return (a + t * d).squaredNorm();
 }
 
+/// Signed angle from p to q. Faces are small against the ball as a rule, so that a series is enough
+/// for half the angle: to 1e-12.
+double angle_between(const Vec2& p, const Vec2& q) {
+  const double across = p.x() * q.y() - p.y() * q.x();
+  const double along = p.dot(q);
+  const double t = across / (along + std::sqrt(along * along + across * across));
+  if (!(along > 0 && std::abs(t) < 0.25)) return std::atan2(across, along);
+  const double t2 = t * t;
+  double series = 0;
+  for (int odd = 17; odd >= 1; odd -= 2) series = 1.0 / odd - t2 * series;
+  return 2 * t * series;
+}
+
 /// Signed area between the origin, a and b inside the disk of radius r around the origin.
 double disk_sector_area(const Vec2& a, const Vec2& b, double r) {
   const auto wedge = [r](const Vec2& p, const Vec2& q) {
-    return 0.5 * r * r * std::atan2(p.x() * q.y() - p.y() * q.x(), p.dot(q));
+    return 0.5 * r * r * angle_between(p, q);
   };
   const auto triangle = [](const Vec2& p, const Vec2& q) {
     return 0.5 * (p.x() * q.y() - p.y() * q.x());
@@ -36,6 +56,23 @@ double disk_sector_area(const Vec2& a, const Vec2& b, double r) {
   const Vec2 p = t0 > 0 ? Vec2(a + t0 * d) : a;
   const Vec2 q = t1 < 1 ? Vec2(a + t1 * d) : b;
   return (t0 > 0 ? wedge(a, p) : 0.0) + triangle(p, q) + (t1 < 1 ? wedge(q, b) : 0.0);
+}
+
+/// Share of the way from a point in the ball to one outside that is inside.
+double share_inside(const Vec3& from, const Vec3& way, double r) {
+  const double length2 = way.squaredNorm();
+  const double along = from.dot(way);
+  return (std::sqrt(along * along + length2 * (r * r - from.squaredNorm())) - along) / length2;
+}
+
+/// Adds weight times e e^T.
+void add_cycle(const Vec3& e, double weight, std::array<double, 6>& sum) {
+  sum[0] += weight * e.x() * e.x();
+  sum[1] += weight * e.x() * e.y();
+  sum[2] += weight * e.x() * e.z();
+  sum[3] += weight * e.y() * e.y();
+  sum[4] += weight * e.y() * e.z();
+  sum[5] += weight * e.z() * e.z();
 }
 
 }  // namespace
@@ -70,14 +107,130 @@ double clipped_area(const Vec3& a, const Vec3& b, const Vec3& c, double r) {
                            disk_sector_area(pc, pa, disk));
 }
 
-BallWalker::BallWalker(const TriMesh& mesh, const std::vector<Vec3>& normals,
-                       const std::vector<float>& bend)
-    : mesh_(mesh), normals_(normals), bend_(bend), stamp_(mesh.face_count(), 0) {}
+FaceCycles::FaceCycles(const TriMesh& mesh, const std::vector<Vec3>& normals)
+    : mesh_(mesh),
+      normals_(normals),
+      half_bend_(static_cast<std::size_t>(mesh.halfedge_count())),
+      tiles_(static_cast<std::size_t>(mesh.face_count())) {
+  tbb::parallel_for(Index{0}, mesh.face_count(), [&](Index f) {
+    for (Index h = 3 * f; h < 3 * f + 3; ++h) half_bend_[h] = half_bend_of(h);
+    tiles_[f] = tile_of(f);
+  });
+}
 
-void BallWalker::visit(Index face) {
-  if (is_visited(face)) return;
+float FaceCycles::half_bend_of(Index h) const {
+  if (mesh_.is_barrier(h)) return 0;
+  const Vec3& left = normals_[TriMesh::face_of(h)];
+  const Vec3& right = normals_[TriMesh::face_of(mesh_.twin[h])];
+  const Vec3 edge = mesh_.positions[mesh_.to(h)] - mesh_.positions[mesh_.from(h)];
+  const double length = edge.norm();
+  if (!(length > 0)) return 0;
+  const double beta = std::atan2(left.cross(right).dot(edge) / length, left.dot(right));
+  return static_cast<float>(0.5 * beta / length);
+}
+
+FaceCycles::Tile FaceCycles::tile_of(Index face) const {
+  const auto& [a, b, c] = mesh_.faces[face];
+  const Vec3 centre = (mesh_.positions[a] + mesh_.positions[b] + mesh_.positions[c]) / 3;
+  Tile tile{};
+  double radius = 0;
+  std::array<double, 6> sum{};
+  for (int i = 0; i < 3; ++i) {
+    const Index h = 3 * face + i;
+    const Vec3& p = mesh_.positions[mesh_.from(h)];
+    radius = std::max(radius, (p - centre).norm() + kTileRounding * p.cwiseAbs().maxCoeff());
+    add_cycle(mesh_.positions[mesh_.to(h)] - p, half_bend_[h], sum);
+    tile.centre[i] = static_cast<float>(centre[i]);
+    tile.neighbour[i] = mesh_.is_barrier(h) ? kNone : TriMesh::face_of(mesh_.twin[h]);
+  }
+  tile.radius = static_cast<float>(radius * (1 + kTileRounding));
+  tile.area = static_cast<float>(face_area(mesh_, face));
+  std::transform(sum.begin(), sum.end(), tile.cycle.begin(),
+                 [](double entry) { return static_cast<float>(entry); });
+  return tile;
+}
+
+BallWalker::BallWalker(const FaceCycles& cycles)
+    : cycles_(cycles), stamp_(static_cast<std::size_t>(cycles.mesh().face_count()), 0) {}
+
+/// Puts a face on the front, unless it is there or folds over to another sheet.
+void BallWalker::visit(Index face, const Vec3& normal) {
+  if (face == kNone || stamp_[face] == current_ || cycles_.normal(face).dot(normal) <= 0) return;
   stamp_[face] = current_;
   front_.push_back(face);
+}
+
+void BallWalker::add_whole(const FaceCycles::Tile& tile, const Vec3& normal) {
+  area_ += tile.area;
+  for (std::size_t i = 0; i < sum_.size(); ++i) sum_[i] += tile.cycle[i];
+  for (const Index other : tile.neighbour) visit(other, normal);
+}
+
+/// Adds a face that is small against the ball, so that its rim is a flat arc there.
+void BallWalker::add_small(Index face, const Vec3& centre, double radius, const Vec3& normal) {
+  const TriMesh& mesh = cycles_.mesh();
+  const FaceCycles::Tile& tile = cycles_.tile(face);
+  std::array<Vec3, 3> p;
+  std::array<bool, 3> inside{};
+  for (int i = 0; i < 3; ++i) {
+    p[i] = mesh.positions[mesh.faces[face][i]] - centre;
+    inside[i] = p[i].squaredNorm() <= radius * radius;
+  }
+  const int count = int(inside[0]) + int(inside[1]) + int(inside[2]);
+  if (count == 3) return add_whole(tile, normal);
+  for (int i = 0; i < 3; ++i) {  // the rim may cut such an edge twice
+    const int j = (i + 1) % 3;
+    if (!inside[i] && !inside[j] && squared_distance_to_segment(p[i], p[j]) < radius * radius) {
+      return add_large(face, centre, radius, normal);
+    }
+  }
+  if (count == 0) return;
+  double corner = 1;  // share of the corner that the rim cuts off, inside or outside
+  Vec3 chord = Vec3::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    if (!inside[i] && !inside[j]) continue;
+    visit(tile.neighbour[i], normal);
+    double share = 1;
+    if (inside[i] != inside[j]) {
+      const Vec3& from = inside[i] ? p[i] : p[j];
+      const Vec3 way = (inside[i] ? p[j] : p[i]) - from;
+      share = share_inside(from, way, radius);
+      corner *= count == 1 ? share : 1 - share;
+      const Vec3 crossing = from + share * way;
+      chord += inside[i] ? crossing : Vec3(-crossing);
+    }
+    add_cycle(p[j] - p[i], share * cycles_.half_bend(3 * face + i), sum_);
+  }
+  // Between the chord and the arc: c^3 / (12 r), to (c / r)^2 / 13 of itself.
+  const double length2 = chord.squaredNorm();
+  area_ +=
+      (count == 1 ? corner : 1 - corner) * tile.area + length2 * std::sqrt(length2) / (12 * radius);
+}
+
+/// Adds a face that the ball may cut in any way.
+void BallWalker::add_large(Index face, const Vec3& centre, double radius, const Vec3& normal) {
+  const TriMesh& mesh = cycles_.mesh();
+  const FaceCycles::Tile& tile = cycles_.tile(face);
+  std::array<Vec3, 3> p;
+  std::array<bool, 3> inside{};
+  for (int i = 0; i < 3; ++i) {
+    p[i] = mesh.positions[mesh.faces[face][i]] - centre;
+    inside[i] = p[i].squaredNorm() <= radius * radius;
+  }
+  area_ += clipped_area(p[0], p[1], p[2], radius);
+  for (int i = 0; i < 3; ++i) {
+    if (tile.neighbour[i] == kNone) continue;
+    const int j = (i + 1) % 3;
+    if (!inside[i] && !inside[j] && squared_distance_to_segment(p[i], p[j]) >= radius * radius) {
+      continue;
+    }
+    visit(tile.neighbour[i], normal);
+    const Vec3 edge = p[j] - p[i];
+    double weight = cycles_.half_bend(3 * face + i);
+    if (!inside[i] || !inside[j]) weight *= clipped_length(p[i], p[j], radius) / edge.norm();
+    add_cycle(edge, weight, sum_);
+  }
 }
 
 std::array<double, 6> BallWalker::tensor(Index h, const Vec3& normal, double radius) {
@@ -85,49 +238,29 @@ std::array<double, 6> BallWalker::tensor(Index h, const Vec3& normal, double rad
     std::fill(stamp_.begin(), stamp_.end(), 0U);
     current_ = 1;
   }
-  front_.clear();
-  visit(TriMesh::face_of(h));
-
-  const Vec3 centre = mesh_.positions[mesh_.from(h)];
-  const double r2 = radius * radius;
-  double area = 0;
-  std::array<double, 6> sum{};
+  const Index first = TriMesh::face_of(h);
+  stamp_[first] = current_;
+  front_.assign(1, first);
+  area_ = 0;
+  sum_ = {};
+  const Vec3 centre = cycles_.mesh().positions[cycles_.mesh().from(h)];
   for (std::size_t at = 0; at < front_.size(); ++at) {
-    const Index f = front_[at];
-    const auto& v = mesh_.faces[f];
-    const std::array<Vec3, 3> p = {mesh_.positions[v[0]] - centre, mesh_.positions[v[1]] - centre,
-                                   mesh_.positions[v[2]] - centre};
-    const std::array<bool, 3> inside = {p[0].squaredNorm() <= r2, p[1].squaredNorm() <= r2,
-                                        p[2].squaredNorm() <= r2};
-    // Most faces lie inside as a whole; nothing of them needs to be clipped.
-    area += inside[0] && inside[1] && inside[2] ? 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).norm()
-                                                : clipped_area(p[0], p[1], p[2], radius);
-    for (int i = 0; i < 3; ++i) {
-      const Index e = 3 * f + i;
-      if (mesh_.is_barrier(e)) continue;
-      const int j = (i + 1) % 3;
-      const bool whole = inside[i] && inside[j];
-      if (!inside[i] && !inside[j] && squared_distance_to_segment(p[i], p[j]) >= r2) continue;
-      const Index twin = mesh_.twin[e];
-      const Index other = TriMesh::face_of(twin);
-      if (normals_[other].dot(normal) <= 0) continue;  // folds over to another sheet
-      visit(other);
-      if (e > twin) continue;  // each edge once: both its faces are visited
-      const Vec3 d = p[j] - p[i];
-      double weight = bend_[e];
-      if (!whole) weight *= clipped_length(p[i], p[j], radius) / d.norm();
-      sum[0] += weight * d.x() * d.x();
-      sum[1] += weight * d.x() * d.y();
-      sum[2] += weight * d.x() * d.z();
-      sum[3] += weight * d.y() * d.y();
-      sum[4] += weight * d.y() * d.z();
-      sum[5] += weight * d.z() * d.z();
+    const FaceCycles::Tile& tile = cycles_.tile(front_[at]);
+    const Vec3 middle(tile.centre[0], tile.centre[1], tile.centre[2]);
+    const double room = radius - tile.radius;
+    if (room > 0 && (middle - centre).squaredNorm() <= room * room) {
+      add_whole(tile, normal);
+    } else if (tile.radius <= kSmallFace * radius) {
+      add_small(front_[at], centre, radius, normal);
+    } else {
+      add_large(front_[at], centre, radius, normal);
     }
   }
-  if (area > 0) {
-    for (double& entry : sum) entry /= area;
+  std::array<double, 6> tensor = sum_;
+  if (area_ > 0) {
+    for (double& entry : tensor) entry /= area_;
   }
-  return sum;
+  return tensor;
 }
 
 }  // namespace strake

@@ -16,23 +16,6 @@ namespace {
 
 constexpr Index kBlock = 256;
 
-/// Signed dihedral angle over edge length at every half-edge, positive where convex; 0 on barriers
-/// and where the edge has no length.
-std::vector<float> edge_bends(const TriMesh& mesh, const std::vector<Vec3>& normals) {
-  std::vector<float> bend(mesh.halfedge_count(), 0);
-  tbb::parallel_for(Index{0}, mesh.halfedge_count(), [&](Index h) {
-    if (mesh.is_barrier(h)) return;
-    const Vec3& left = normals[TriMesh::face_of(h)];
-    const Vec3& right = normals[TriMesh::face_of(mesh.twin[h])];
-    const Vec3 edge = mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)];
-    const double length = edge.norm();
-    if (!(length > 0)) return;
-    const double beta = std::atan2(left.cross(right).dot(edge) / length, left.dot(right));
-    bend[h] = static_cast<float>(beta / length);
-  });
-  return bend;
-}
-
 /// Mean length of the edges around each wedge.
 std::vector<double> wedge_edge_lengths(const TriMesh& mesh) {
   std::vector<double> sum(mesh.wedge_count(), 0);
@@ -53,7 +36,7 @@ std::vector<double> wedge_edge_lengths(const TriMesh& mesh) {
 WedgeTensors estimate_wedge_tensors(const TriMesh& mesh, Index count, double radius,
                                     Observer& observer) {
   const std::vector<Vec3> normals = face_normals(mesh);
-  const std::vector<float> bend = edge_bends(mesh, normals);
+  const FaceCycles cycles(mesh, normals);
   const std::vector<double> edge_length = wedge_edge_lengths(mesh);
 
   std::vector<Index> wedge_corner(mesh.wedge_count(), kNone);
@@ -64,8 +47,7 @@ WedgeTensors estimate_wedge_tensors(const TriMesh& mesh, Index count, double rad
   result.normal.resize(count);
   result.tensor.resize(count);
 
-  tbb::enumerable_thread_specific<BallWalker> walkers(
-      [&] { return BallWalker(mesh, normals, bend); });
+  tbb::enumerable_thread_specific<BallWalker> walkers([&] { return BallWalker(cycles); });
   std::atomic<Index> grown{0};
   const Index blocks = (count + kBlock - 1) / kBlock;
   const Index reports = std::min<Index>(blocks, 64);
