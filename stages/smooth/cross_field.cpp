@@ -19,7 +19,8 @@ constexpr double kGuideWeight = 100;    ///< likewise, on the faces that a guide
 constexpr double kBoundaryWeight = 5;  ///< scan boundaries are ragged: follow, but not at any price
 constexpr double kLossAngle = 10 * M_PI / 180;  ///< of the loss of Geman and McClure
 constexpr int kReweightings = 6;
-constexpr double kRoughTolerance = 1e-4;  ///< of solves that only give weights
+constexpr double kRoughTolerance = 1e-2;  ///< of solves that only give weights
+constexpr double kTolerance = 1e-3;       ///< of the last one: directions to a fraction of a degree
 
 /// Half the cotangent of the angle opposite to half-edge h, kept within bounds that slivers would
 /// leave: the weight of the edge in the Dirichlet energy, as far as this face is concerned.
@@ -33,8 +34,9 @@ double dirichlet_weight(const TriMesh& mesh, Index h) {
 
 /// The linear system whose solution is the cross of every wedge, as cross_power in its own frame.
 struct CrossSystem {
-  HermitianMatrix matrix;          ///< without the hold to principal directions
-  std::vector<Complex> right;      ///< likewise
+  HermitianMatrix matrix;          ///< its diagonal is that of the solve at hand
+  std::vector<double> diagonal;    ///< [W] without the hold to principal directions
+  std::vector<Complex> right;      ///< [W] likewise
   std::vector<Complex> principal;  ///< [W] what is held to
   std::vector<double> hold;        ///< [W] how strongly, where the loss is quadratic
 };
@@ -46,6 +48,7 @@ CrossSystem cross_system(const TriMesh& mesh, const WedgeGraph& graph,
   std::vector<TangentFrame> frames(n);
   CrossSystem system = {{graph.offsets, graph.neighbours,
                          std::vector<Complex>(graph.neighbours.size()), std::vector<double>(n)},
+                        std::vector<double>(n),
                         std::vector<Complex>(n),
                         std::vector<Complex>(n),
                         std::vector<double>(n)};
@@ -84,7 +87,7 @@ CrossSystem cross_system(const TriMesh& mesh, const WedgeGraph& graph,
     }
     // A trace of weight everywhere keeps components without any reliable direction solvable.
     const double trace = 1e-9 * std::max(diagonal, 1e-30);
-    system.matrix.diagonal[w] = diagonal + trace;
+    system.diagonal[w] = diagonal + trace;
     system.right[w] += trace * system.principal[w];
   });
   return system;
@@ -92,18 +95,17 @@ CrossSystem cross_system(const TriMesh& mesh, const WedgeGraph& graph,
 
 /// Solves for the crosses with each hold weakened as the loss wants it at the angle between
 /// the last solution and the principal direction; not at all where `solution` is that direction.
-Index solve_reweighted(const CrossSystem& system, const SolverOptions& options,
+Index solve_reweighted(CrossSystem& system, const SolverOptions& options,
                        std::vector<Complex>& solution) {
-  HermitianMatrix matrix = system.matrix;
   std::vector<Complex> right = system.right;
   tbb::parallel_for(Index{0}, static_cast<Index>(solution.size()), [&](Index w) {
     const double angle = std::arg(solution[w] * std::conj(system.principal[w])) / 4;
     const double share = 1 / (1 + angle * angle / (kLossAngle * kLossAngle));
     const double hold = system.hold[w] * share * share;
-    matrix.diagonal[w] += hold;
+    system.matrix.diagonal[w] = system.diagonal[w] + hold;
     right[w] += hold * system.principal[w];
   });
-  return solve(matrix, right, options, solution);
+  return solve(system.matrix, right, options, solution);
 }
 
 }  // namespace
@@ -111,12 +113,12 @@ Index solve_reweighted(const CrossSystem& system, const SolverOptions& options,
 Index extend_cross_field(const TriMesh& mesh, const WedgeGraph& graph,
                          const std::vector<double>& areas, double stiffness,
                          const GuidePull& guides, PrincipalField& field) {
-  const CrossSystem system = cross_system(mesh, graph, areas, stiffness, guides, field);
+  CrossSystem system = cross_system(mesh, graph, areas, stiffness, guides, field);
   std::vector<Complex> solution = system.principal;
   Index iterations = 0;
   for (int round = 0; round <= kReweightings; ++round) {
     SolverOptions options;
-    if (round < kReweightings) options.tolerance = kRoughTolerance;
+    options.tolerance = round < kReweightings ? kRoughTolerance : kTolerance;
     iterations += solve_reweighted(system, options, solution);
   }
 
