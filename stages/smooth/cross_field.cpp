@@ -19,8 +19,12 @@ constexpr double kGuideWeight = 100;    ///< likewise, on the faces that a guide
 constexpr double kBoundaryWeight = 5;  ///< scan boundaries are ragged: follow, but not at any price
 constexpr double kLossAngle = 10 * M_PI / 180;  ///< of the loss of Geman and McClure
 constexpr int kReweightings = 6;
-constexpr double kRoughTolerance = 1e-2;  ///< of solves that only give weights
-constexpr double kTolerance = 1e-3;       ///< of the last one: directions to a fraction of a degree
+/// When a solve is good enough, as a share of the holds to principal directions. What features and
+/// guides add to the right side says nothing about how far the rest has come.
+constexpr double kTolerance = 1e-3;
+constexpr double kRoughTolerance = 1e-2;  ///< likewise, of solves that only give weights
+/// As a share of the whole right side it need not be less than this share of the tolerance.
+constexpr double kLeastShare = 1e-2;
 
 /// Half the cotangent of the angle opposite to half-edge h, kept within bounds that slivers would
 /// leave: the weight of the edge in the Dirichlet energy, as far as this face is concerned.
@@ -95,16 +99,25 @@ CrossSystem cross_system(const TriMesh& mesh, const WedgeGraph& graph,
 
 /// Solves for the crosses with each hold weakened as the loss wants it at the angle between
 /// the last solution and the principal direction; not at all where `solution` is that direction.
-Index solve_reweighted(CrossSystem& system, const SolverOptions& options,
-                       std::vector<Complex>& solution) {
+Index solve_reweighted(CrossSystem& system, double tolerance, std::vector<Complex>& solution) {
   std::vector<Complex> right = system.right;
+  std::vector<double> holds(solution.size());
   tbb::parallel_for(Index{0}, static_cast<Index>(solution.size()), [&](Index w) {
     const double angle = std::arg(solution[w] * std::conj(system.principal[w])) / 4;
     const double share = 1 / (1 + angle * angle / (kLossAngle * kLossAngle));
     const double hold = system.hold[w] * share * share;
+    holds[w] = hold;
     system.matrix.diagonal[w] = system.diagonal[w] + hold;
     right[w] += hold * system.principal[w];
   });
+  double hold_norm2 = 0;
+  double right_norm2 = 0;
+  for (std::size_t w = 0; w < solution.size(); ++w) {
+    hold_norm2 += holds[w] * holds[w];
+    right_norm2 += std::norm(right[w]);
+  }
+  const double share = right_norm2 > 0 ? std::sqrt(hold_norm2 / right_norm2) : 1;
+  const SolverOptions options = {.tolerance = tolerance * std::clamp(share, kLeastShare, 1.0)};
   return solve(system.matrix, right, options, solution);
 }
 
@@ -117,9 +130,8 @@ Index extend_cross_field(const TriMesh& mesh, const WedgeGraph& graph,
   std::vector<Complex> solution = system.principal;
   Index iterations = 0;
   for (int round = 0; round <= kReweightings; ++round) {
-    SolverOptions options;
-    options.tolerance = round < kReweightings ? kRoughTolerance : kTolerance;
-    iterations += solve_reweighted(system, options, solution);
+    iterations +=
+        solve_reweighted(system, round < kReweightings ? kRoughTolerance : kTolerance, solution);
   }
 
   field.cross.resize(solution.size());

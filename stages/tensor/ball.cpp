@@ -202,7 +202,7 @@ void BallWalker::add_small(Index face, const Vec3& centre, double radius, const 
     }
     add_cycle(p[j] - p[i], share * cycles_.half_bend(3 * face + i), sum_);
   }
-  // Between the chord and the arc: c^3 / (12 r), to (c / r)^2 / 13 of itself.
+  // Between the chord and the arc: the first term of its series, c^3 / (12 r).
   const double length2 = chord.squaredNorm();
   area_ +=
       (count == 1 ? corner : 1 - corner) * tile.area + length2 * std::sqrt(length2) / (12 * radius);
