@@ -83,6 +83,9 @@ TEST(SurfaceDistance, AgreesWithAllTrianglesOneByOne) {
       EXPECT_EQ(found.distance, best.distance);
       EXPECT_EQ(found.triangle, best.triangle);
       EXPECT_EQ(found.barycentric, best.barycentric);
+      const ClosestPoint guessed = surface.closest_near(p, (7 * i) % 400);
+      EXPECT_EQ(guessed.distance, best.distance);
+      EXPECT_EQ(guessed.triangle, best.triangle);
     }
   }
 }
