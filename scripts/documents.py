@@ -74,6 +74,17 @@ def output_of(*command):
     return done.stdout
 
 
+def run_in(folder, command):
+    """What a command line of a document prints on stdout, run in a folder with the programs at hand."""
+    programs = pathlib.Path(program("strake")).resolve().parent
+    environment = dict(os.environ, PATH=f"{programs}:{os.environ['PATH']}")
+    done = subprocess.run(["bash", "-c", command], cwd=folder, env=environment, capture_output=True,
+                          text=True, check=False)
+    if done.returncode != 0:
+        fail(f"'{command}' returned {done.returncode}:\n{done.stderr}")
+    return done.stdout
+
+
 def with_generated(text, name, block, path):
     """The text with what stands between the markers of `name` replaced by `block`."""
     begin, end = f"<!-- {name}: begin -->\n", f"<!-- {name}: end -->"
