@@ -16,12 +16,17 @@ if(STRAKE_SANITIZE)
   add_link_options(-fsanitize=${STRAKE_SANITIZE})
 endif()
 
+include(GNUInstallDirs)
+set(STRAKE_INSTALL_HEADERS ${CMAKE_INSTALL_INCLUDEDIR}/strake)
+
 # strake_library(NAME SOURCES... [DEPENDS targets...]): a static library strake_NAME.
 function(strake_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
   add_library(strake_${name} STATIC ${ARG_SOURCES})
-  target_link_libraries(strake_${name} PUBLIC ${ARG_DEPENDS} PRIVATE strake_flags)
-  target_include_directories(strake_${name} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_link_libraries(strake_${name} PUBLIC ${ARG_DEPENDS}
+                        PRIVATE $<BUILD_INTERFACE:strake_flags>)
+  target_include_directories(strake_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+                             $<INSTALL_INTERFACE:${STRAKE_INSTALL_HEADERS}>)
 endfunction()
 
 # strake_optimise_less(TARGET): for code that is not what takes time: builds it faster.
@@ -31,12 +36,13 @@ function(strake_optimise_less target)
   endif()
 endfunction()
 
-# strake_program(NAME SOURCES... [DEPENDS targets...]): an executable in build/bin.
+# strake_program(NAME SOURCES... [DEPENDS targets...]): an executable in build/bin that is installed.
 function(strake_program name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_DEPENDS} strake_flags)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+  set_property(GLOBAL APPEND PROPERTY STRAKE_PROGRAMS ${name})
 endfunction()
 
 # strake_stage(FOLDER [DEPENDS targets...]): the description strake_X_stage and the program strake-X of
@@ -47,11 +53,12 @@ function(strake_stage folder)
   string(REPLACE "/" "-" name ${folder})
   string(REGEX REPLACE "/.*" "" stage ${folder})
   set(sources ${CMAKE_CURRENT_SOURCE_DIR}/${folder})
-  strake_library(${name}_stage SOURCES ${sources}/stage.cpp DEPENDS strake_stage ${ARG_DEPENDS})
+  strake_library(${name}_stage SOURCES ${sources}/stage.cpp DEPENDS strake_stage_values
+                 ${ARG_DEPENDS})
   if(TARGET strake_${stage})
     target_link_libraries(strake_${name}_stage PUBLIC strake_${stage})
   endif()
-  strake_program(strake-${name} SOURCES ${sources}/main.cpp DEPENDS strake_${name}_stage)
+  strake_program(strake-${name} SOURCES ${sources}/main.cpp DEPENDS strake_stage strake_${name}_stage)
 endfunction()
 
 # strake_test(NAME SOURCES... [DEPENDS targets...]): a GoogleTest executable, one ctest entry a case.

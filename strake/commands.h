@@ -21,5 +21,7 @@ void add_status_command(CLI::App& app, Action& chosen);
 void add_gc_command(CLI::App& app, Action& chosen);
 void add_schema_command(CLI::App& app, Action& chosen);
 void add_step_command(CLI::App& app, Action& chosen);
+/// `man` and `completion`, which speak of all commands of `app`.
+void add_manual_commands(CLI::App& app, Action& chosen);
 
 }  // namespace strake

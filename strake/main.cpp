@@ -1,12 +1,25 @@
 #include <CLI/App.hpp>
 
-#include "common/core/error.h"
+#include "common/stage/build_facts.h"
 #include "strake/commands.h"
+
+namespace {
+
+constexpr const char* kExamples =
+    R"(Examples:
+  strake sample part -o part.ply
+  strake remesh part.ply -o quads.obj --vertices 5000
+  strake remesh part.ply -o quads.obj --tolerance 0.1% --keep work
+  strake info work/field.hdf
+  source <(strake completion bash)
+  strake man | man -l -)";
+
+}  // namespace
 
 int main(int argc, char** argv) {
   return strake::run_guarded("strake", [&] {
     CLI::App app("Anisotropic quad-dominant remeshing along lines of curvature.", "strake");
-    app.set_version_flag("--version", "strake " STRAKE_VERSION);
+    app.set_version_flag("--version", strake::version_text("strake"));
     app.require_subcommand(1);
     strake::Action chosen;
     strake::add_remesh_command(app, chosen);
@@ -20,6 +33,8 @@ int main(int argc, char** argv) {
     strake::add_gc_command(app, chosen);
     strake::add_schema_command(app, chosen);
     strake::add_step_command(app, chosen);
+    strake::add_manual_commands(app, chosen);
+    app.footer(kExamples);  // after the commands, which would inherit it
     if (const auto exit_code = strake::parse_command_line(app, argc, argv)) return *exit_code;
     return chosen();
   });

@@ -31,8 +31,8 @@ void add_sample_command(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand("sample", "Make a surface to try things on.");
   const auto sample = std::make_shared<SampleCommand>();
   std::string kinds;
-  for (const std::string& name : sample_names()) kinds += (kinds.empty() ? "" : ", ") + name;
-  command->add_option("kind", sample->kind, kinds)->type_name("KIND")->required();
+  for (const std::string& name : sample_names()) kinds += (kinds.empty() ? "" : "|") + name;
+  command->add_option("kind", sample->kind, "the surface")->type_name(kinds)->required();
   command->add_option("-o,--output", sample->output, "file to write: .obj, .ply or .off")
       ->type_name("FILE")
       ->required();

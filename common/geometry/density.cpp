@@ -1,6 +1,7 @@
 #include "common/geometry/density.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "common/core/error.h"
@@ -14,6 +15,10 @@ std::vector<double> density_at_wedges(const TriMesh& mesh, const DensityField& d
                             " vertices, but the mesh was made from a file with " +
                             std::to_string(last + 1) +
                             " or more; give a density of that file's vertices");
+  }
+  for (std::size_t i = 0; i < density.value.size(); ++i) {
+    if (density.value[i] > 0 && std::isfinite(density.value[i])) continue;
+    throw InputError("the density of vertex " + std::to_string(i) + " is no positive number");
   }
   std::vector<double> values;
   values.reserve(mesh.wedge_vertex.size());

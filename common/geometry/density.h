@@ -8,7 +8,9 @@
 namespace strake {
 
 /// [W] the wanted density at each wedge, of a field that goes by the vertices of the file read.
-/// \throw PreconditionError where that file had more vertices than the field has
+/// \throw PreconditionError where that file had more vertices than the field has, InputError where
+/// a
+///        density is no positive number
 std::vector<double> density_at_wedges(const TriMesh& mesh, const DensityField& density);
 
 }  // namespace strake

@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "common/core/error.h"
+#include "common/stage/pace.h"
 
 namespace strake {
 namespace {
@@ -37,6 +39,28 @@ void catch_interrupts() {
 
 bool interrupt_requested() { return interrupt_arrived != 0; }
 
+bool use_colours() {
+  const char* refused = std::getenv("NO_COLOR");
+  const char* terminal = std::getenv("TERM");
+  if (refused != nullptr && *refused != '\0') return false;
+  if (terminal == nullptr || std::string_view(terminal) == "dumb") return false;
+  return isatty(STDERR_FILENO) != 0;
+}
+
+std::string highlighted(const std::string& text) {
+  if (!use_colours()) return text;
+  constexpr std::pair<std::string_view, std::string_view> kColours[] = {
+      {"error: ", "\033[1;31m"}, {"warning: ", "\033[1;33m"}};
+  for (const auto& [word, colour] : kColours) {
+    const std::size_t place = text.find(word);
+    if (place == std::string::npos) continue;
+    constexpr const char* kPlain = "\033[0m";
+    return fmt::format("{}{}{}{}{}", text.substr(0, place), colour, word, kPlain,
+                       text.substr(place + word.size()));
+  }
+  return text;
+}
+
 ConsoleObserver::ConsoleObserver(Verbosity verbosity, LogFormat format)
     : verbosity_(verbosity),
       format_(format),
@@ -44,9 +68,9 @@ ConsoleObserver::ConsoleObserver(Verbosity verbosity, LogFormat format)
 
 ConsoleObserver::~ConsoleObserver() { clear_bar(); }
 
-void ConsoleObserver::begin(std::string label) {
+void ConsoleObserver::begin(const std::string& label) {
   clear_bar();
-  label_ = std::move(label);
+  label_ = label;
   phase_.clear();
 }
 
@@ -58,6 +82,7 @@ void ConsoleObserver::report(std::string_view phase, double fraction) {
   const bool new_phase = phase != phase_;
   const auto pause = terminal_ || format_ == LogFormat::json ? 100ms : 10s;
   if (!new_phase && now - last_shown_ < pause) return;
+  if (new_phase) phase_began_ = now;
   phase_ = phase;
   last_shown_ = now;
   show_progress(std::clamp(fraction, 0.0, 1.0), new_phase);
@@ -70,8 +95,10 @@ void ConsoleObserver::show_progress(double share, bool new_phase) {
   } else if (terminal_) {
     constexpr int kWidth = 30;
     const int full = static_cast<int>(share * kWidth);
-    fmt::print(stderr, "\r\033[K{:9} [{:=<{}}{:{}}] {:3.0f} % {}", label_, "", full, "",
-               kWidth - full, 100 * share, phase_);
+    const std::chrono::duration<double> elapsed = last_shown_ - phase_began_;
+    const std::string pace = pace_text(elapsed.count(), share);
+    fmt::print(stderr, "\r\033[K{:9} [{:=<{}}{:{}}] {:3.0f} % {}{}{}", label_, "", full, "",
+               kWidth - full, 100 * share, phase_, pace.empty() ? "" : ", ", pace);
     bar_visible_ = true;
   } else if (new_phase) {
     fmt::print(stderr, "{}: {}\n", label_, phase_);
@@ -87,7 +114,7 @@ void ConsoleObserver::say(const std::string& line) {
     return;
   }
   clear_bar();
-  fmt::print(stderr, "{}\n", line);
+  fmt::print(stderr, "{}\n", highlighted(line));
 }
 
 void ConsoleObserver::clear_bar() {

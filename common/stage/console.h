@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "common/core/observer.h"
+#include "common/core/stage_observer.h"
 
 namespace strake {
 
@@ -20,10 +20,18 @@ void catch_interrupts();
 /// Whether one of these signals has arrived.
 bool interrupt_requested();
 
-/// Shows progress on stderr: a bar on a terminal, a line per phase otherwise. As JSON:
+/// Whether messages on stderr may have colours: on a terminal that is not dumb, unless NO_COLOR is
+/// set to something (https://no-color.org).
+bool use_colours();
+
+/// The text with a word such as "error:" or "warning:" in colour, where colours may be used.
+std::string highlighted(const std::string& text);
+
+/// Shows progress on stderr: a bar on a terminal, with pace and time left after a
+/// second; a line per phase otherwise. As JSON:
 /// {"event": "progress", "label", "phase", "fraction"} and {"event": "message", "text"}.
 /// Cancels the run with Interrupted once a caught signal has arrived.
-class ConsoleObserver : public Observer {
+class ConsoleObserver : public StageObserver {
  public:
   explicit ConsoleObserver(Verbosity verbosity, LogFormat format = LogFormat::text);
   ConsoleObserver(const ConsoleObserver&) = delete;
@@ -31,10 +39,10 @@ class ConsoleObserver : public Observer {
   ~ConsoleObserver() override;
 
   /// What the next phases belong to: the name of a stage.
-  void begin(std::string label);
+  void begin(const std::string& label) override;
   void report(std::string_view phase, double fraction) override;
   /// A line for the user, above the bar; nothing if quiet.
-  void say(const std::string& line);
+  void say(const std::string& line) override;
 
  private:
   void clear_bar();
@@ -46,6 +54,7 @@ class ConsoleObserver : public Observer {
   bool bar_visible_ = false;
   std::string label_;
   std::string phase_;
+  std::chrono::steady_clock::time_point phase_began_{};
   std::chrono::steady_clock::time_point last_shown_{};
 };
 

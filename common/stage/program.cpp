@@ -17,6 +17,9 @@
 #include "common/artifact/artifact.h"
 #include "common/artifact/text_file.h"
 #include "common/core/error.h"
+#include "common/core/suggest.h"
+#include "common/stage/build_facts.h"
+#include "common/stage/command_tree.h"
 
 namespace strake {
 namespace {
@@ -130,6 +133,43 @@ void run_program(const Stage& stage, const Paths& paths, const ShellOptions& she
   if (shell.verbose && result.output) console.say(report_text(record.report));
 }
 
+/// The command of the command line, or the program itself where it names none.
+const CLI::App& chosen_command(const CLI::App& app) {
+  const std::vector<CLI::App*> commands = app.get_subcommands();
+  return commands.empty() ? app : *commands.front();
+}
+
+/// A question for the first word that is not known, where it looks like one that is; or "".
+std::string what_was_meant(const CLI::App& app) {
+  const CLI::App& command = chosen_command(app);
+  std::vector<std::string> known;
+  for (const CommandWord& option : command_tree(command).options()) {
+    known.insert(known.end(), option.names.begin(), option.names.end());
+  }
+  if (&command == &app) {
+    for (const CommandTree& each : command_tree(app).commands) known.push_back(each.name);
+  }
+  constexpr bool kOfCommandsToo = true;
+  for (const std::string& word : app.remaining(kOfCommandsToo)) {
+    const std::string nearest = nearest_word(word.substr(0, word.find('=')), known);
+    if (!nearest.empty()) return fmt::format("did you mean '{}' instead of '{}'?", nearest, word);
+  }
+  return "";
+}
+
+/// How the stage is called on files with the names of its ports.
+std::string example(const Stage& stage) {
+  const auto file = [](const Port& port) {
+    if (port.kind == PortKind::polygons) return port.name + ".ply";
+    return port.name + (port.kind == PortKind::report ? ".json" : ".hdf");
+  };
+  std::string line = "Example:\n  strake-" + stage.name;
+  for (const Port& port : stage.inputs) {
+    if (port.required) line += " " + file(port);
+  }
+  return line + " -o " + file(stage.output);
+}
+
 }  // namespace
 
 void add_options(CLI::App& target, const OptionList& options) {
@@ -176,7 +216,7 @@ ConsoleObserver ShellOptions::console() const {
 
 int run_guarded(const std::string& program, const std::function<int()>& body) {
   const auto fail = [&](const std::string& message, ExitCode code) {
-    fmt::print(stderr, "{}: error: {}\n", program, message);
+    fmt::print(stderr, "{}\n", highlighted(program + ": error: " + message));
     return static_cast<int>(code);
   };
   try {
@@ -194,12 +234,22 @@ int run_guarded(const std::string& program, const std::function<int()>& body) {
 }
 
 std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv) {
+  if (argc == 3 && argv[1] == std::string_view("--generate")) {
+    const CommandTree tree = command_tree(app);
+    const std::string kind = argv[2];
+    std::fputs(
+        (kind == "man" ? man_page(tree, STRAKE_VERSION) : completion_script(tree, kind)).c_str(),
+        stdout);
+    return 0;
+  }
   try {
     app.parse(argc, argv);
     return std::nullopt;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // help or version
-    throw UsageError(std::string(error.what()) + " (see " + app.get_name() + " --help)");
+    const std::string meant = what_was_meant(app);
+    throw UsageError(std::string(error.what()) + (meant.empty() ? "" : "; " + meant) + " (see " +
+                     app.get_name() + " --help)");
   }
 }
 
@@ -214,7 +264,8 @@ int stage_main(const Stage& stage, int argc, char** argv) {
   const std::string program = "strake-" + stage.name;
   return run_guarded(program, [&] {
     CLI::App app(stage.summary, program);
-    app.set_version_flag("--version", program + " " STRAKE_VERSION);
+    app.set_version_flag("--version", version_text(program));
+    app.footer(example(stage));
     Paths paths;
     ShellOptions shell;
     add_ports(app, stage, paths);

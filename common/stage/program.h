@@ -38,8 +38,10 @@ struct ShellOptions {
 /// \return what `body` returns, or the error's exit code
 int run_guarded(const std::string& program, const std::function<int()>& body);
 
-/// Parses the command line. \return the exit code where the program has answered (help, version)
-/// \throw UsageError where the command line is wrong
+/// Parses the command line. Where it is `--generate man`, or a shell instead of "man", prints
+/// manual page or completion script of the program, for packages. \return the exit code where the
+/// program has answered (help, version) \throw UsageError where the command line is wrong, with
+/// what was probably meant
 std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv);
 
 /// Runs `work` with the wanted number of threads. \param threads  0: all processors

@@ -1,7 +1,6 @@
 #include "common/stage/value.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "common/artifact/artifact.h"
@@ -9,18 +8,12 @@
 #include "common/artifact/meshfile/guide_reader.h"
 #include "common/artifact/meshfile/mesh_writer.h"
 #include "common/core/error.h"
+#include "common/stage/overloaded.h"
 
 namespace strake {
 namespace {
 
 namespace fs = std::filesystem;
-
-template <class... Callables>
-struct Overloaded : Callables... {
-  using Callables::operator()...;
-};
-template <class... Callables>
-Overloaded(Callables...) -> Overloaded<Callables...>;
 
 constexpr const char* kArtifactExtension = ".hdf";
 
@@ -42,42 +35,6 @@ Polygons load_polygons(const fs::path& path) {
     polygons.mesh = read_mesh(path, polygons.read);
   }
   return polygons;
-}
-
-/// Whether every index that `lines` holds exists in `mesh`.
-bool fits(const TriMesh& mesh, const LineSet& lines) {
-  return lines.spacing_along_min.size() == mesh.wedge_vertex.size() &&
-         std::all_of(
-             lines.points.begin(), lines.points.end(),
-             [&](const LinePoint& point) { return point.halfedge < mesh.halfedge_count(); }) &&
-         std::all_of(lines.chord_face.begin(), lines.chord_face.end(),
-                     [&](Index face) { return face < mesh.face_count(); });
-}
-
-bool fits(const TriMesh& mesh, const Value& value) {
-  const std::size_t wedges = mesh.wedge_vertex.size();
-  return std::visit(Overloaded{
-                        [&](const TensorField& field) { return field.tensor.size() == wedges; },
-                        [&](const PrincipalField& field) {
-                          const auto& faces = field.guides.face;
-                          return field.normal.size() == wedges &&
-                                 field.face_confidence.size() == mesh.faces.size() &&
-                                 std::all_of(faces.begin(), faces.end(),
-                                             [&](Index face) { return face < mesh.face_count(); });
-                        },
-                        [&](const LineSet& lines) { return fits(mesh, lines); },
-                        [&](const TensorPart& part) {
-                          return part.wedge.empty() || part.wedge.back() < mesh.wedge_count();
-                        },
-                        [&](const QuadMesh& quads) {
-                          const auto& faces = quads.provenance.face;
-                          return std::all_of(faces.begin(), faces.end(),
-                                             [&](Index face) { return face < mesh.face_count(); });
-                        },
-                        [&](const SizeField& size) { return size.along.size() == wedges; },
-                        [](const auto&) { return true; },
-                    },
-                    value);
 }
 
 }  // namespace
@@ -160,34 +117,6 @@ void check_output_path(PortKind kind, const fs::path& path) {
   if (path.has_parent_path() && !fs::is_directory(path.parent_path(), ignored)) {
     throw InputError("output '" + path.string() + "': the folder '" + path.parent_path().string() +
                      "' does not exist; make it first");
-  }
-}
-
-std::string mesh_id_of(const Value& value) {
-  return std::visit(Overloaded{[](const TriMesh& mesh) { return mesh.id; },
-                               [](const OpenedMesh& mesh) { return mesh->header().id; },
-                               [](const EdgeList&) { return std::string(); },
-                               [](const GuideLines&) { return std::string(); },
-                               [](const auto& other) { return other.mesh_id; }},
-                    value);
-}
-
-void check_belongs(const TriMesh& mesh, const std::string& mesh_name, const Value& value,
-                   const std::string& name) {
-  const std::string id = mesh_id_of(value);
-  if (id.empty() &&
-      (std::holds_alternative<Polygons>(value) || std::holds_alternative<DensityField>(value) ||
-       std::holds_alternative<GuideLines>(value))) {
-    return;
-  }
-  if (id != mesh.id) {
-    throw PreconditionError("'" + name + "' belongs to another mesh than '" + mesh_name + "' (" +
-                            id + ", not " + mesh.id +
-                            "); give the mesh it was made from, or make it again");
-  }
-  if (!fits(mesh, value)) {
-    throw InputError("'" + name + "' names elements that '" + mesh_name +
-                     "' does not have; the file is damaged, make it again");
   }
 }
 

@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <exception>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,6 +9,8 @@
 
 #include "common/artifact/meshfile/mesh_reader.h"
 #include "common/core/error.h"
+#include "common/stage/build_facts.h"
+#include "common/stage/program.h"
 #include "strake/render/camera.h"
 #include "strake/render/draw.h"
 #include "strake/render/image.h"
@@ -32,9 +33,13 @@ struct Arguments {
   DrawOptions draw;
 };
 
-void parse(CLI::App& app, Arguments& arguments) {
-  app.add_option("mesh", arguments.mesh, "Mesh file: OBJ, PLY, OFF or STL")->required();
-  app.add_option("-o,--output", arguments.output, "PNG file to write")->required();
+void add_arguments(CLI::App& app, Arguments& arguments) {
+  app.add_option("mesh", arguments.mesh, "Mesh file: OBJ, PLY, OFF or STL")
+      ->type_name("FILE")
+      ->required();
+  app.add_option("-o,--output", arguments.output, "PNG file to write")
+      ->type_name("FILE.png")
+      ->required();
   app.add_option("--size", arguments.size, "Picture size in pixels, WIDTHxHEIGHT")
       ->capture_default_str();
   app.add_option("--azimuth", arguments.view.azimuth_deg, "Viewer's turn around the up axis, deg")
@@ -55,7 +60,8 @@ void parse(CLI::App& app, Arguments& arguments) {
       ->check(CLI::Range(0.1, 50.0))
       ->capture_default_str();
   app.add_option("--lines", arguments.lines,
-                 "OBJ file with 'l' polylines to draw on the surface: group min blue, max red");
+                 "OBJ file with 'l' polylines to draw on the surface: group min blue, max red")
+      ->type_name("FILE.obj");
   app.add_option("--line-width", arguments.line_width, "Width of the polylines, pixels")
       ->check(CLI::Range(0.1, 50.0))
       ->capture_default_str();
@@ -112,22 +118,13 @@ void run(Arguments arguments) {
 }  // namespace strake
 
 int main(int argc, char** argv) {
-  CLI::App app("Draws a polygon mesh into a PNG file.", "strake-render");
-  strake::Arguments arguments;
-  strake::parse(app, arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(strake::ExitCode::usage);
-  }
-  try {
-    strake::run(arguments);
-  } catch (const strake::Error& error) {
-    std::fprintf(stderr, "strake-render: %s\n", error.what());
-    return static_cast<int>(error.code());
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "strake-render: internal error: %s\n", error.what());
-    return static_cast<int>(strake::ExitCode::internal);
-  }
-  return 0;
+  return strake::run_guarded("strake-render", [&] {
+    CLI::App app("Draws a polygon mesh into a PNG file.", "strake-render");
+    app.set_version_flag("--version", strake::version_text("strake-render"));
+    strake::Arguments arguments;
+    strake::add_arguments(app, arguments);
+    if (const auto exit_code = strake::parse_command_line(app, argc, argv)) return *exit_code;
+    strake::run(std::move(arguments));
+    return 0;
+  });
 }

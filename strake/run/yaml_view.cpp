@@ -4,28 +4,12 @@
 
 #include <algorithm>
 #include <fstream>
-#include <numeric>
-#include <utility>
 
 #include "common/core/error.h"
+#include "common/core/suggest.h"
 
 namespace strake {
 namespace {
-
-/// Levenshtein distance: insertions, deletions and replacements between two names.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i);
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replace = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({replace, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row.back();
-}
 
 /// What the parser has no mark for is an empty file, or an empty document.
 Place place_of(const std::filesystem::path& file, const YAML::Mark& mark) {
@@ -39,14 +23,8 @@ void Place::fail(const std::string& message) const {
 }
 
 std::string suggestion(std::string_view name, const std::vector<std::string>& known) {
-  const auto nearest =
-      std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
-        return edit_distance(name, a) < edit_distance(name, b);
-      });
-  if (nearest != known.end() && edit_distance(name, *nearest) <= 1 + name.size() / 4) {
-    return fmt::format(" (did you mean '{}'?)", *nearest);
-  }
-  return "";
+  const std::string nearest = nearest_word(name, known);
+  return nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest);
 }
 
 YamlView YamlView::load(const std::filesystem::path& file) {

@@ -1,4 +1,4 @@
-#include "strake/count_search.h"
+#include "strake/chain/count_search.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "common/stage/console.h"
+#include "common/core/stage_observer.h"
 #include "common/stage/report_text.h"
 #include "common/stage/stage.h"
 
@@ -18,13 +18,22 @@ namespace strake {
 /// Values never change once made, so a copy is a cheap snapshot to return to.
 class Session {
  public:
-  explicit Session(ConsoleObserver& console) : console_(&console) {}
+  explicit Session(StageObserver& observer) : observer_(&observer) {}
 
-  /// Where to keep each output as the file "port.hdf", and reports as "stage.json".
-  /// \throw InputError where the folder cannot be made
-  void keep_in(const std::filesystem::path& folder);
+  /// What is kept of a stage that was run.
+  struct Kept {
+    const Stage& stage;
+    const StageRecord& record;
+    const Value* output;  ///< nullptr where the report is the result
+    const TriMesh& mesh;
+    const std::map<std::string, double>& seconds;  ///< by stage, all its runs together
+  };
+  /// Writes that somewhere. \return the digest of the output as written; "" where there is none
+  using Keeper = std::function<std::string(const Kept&)>;
+  /// What `keep` calls from now on; without, nothing is kept.
+  void keep_with(Keeper keeper) { keeper_ = std::move(keeper); }
 
-  /// Provides a value that no stage makes. \param digest  of the file it was read from
+  /// Provides a value that no stage makes. \param digest  of the file it was read from, or ""
   void provide(const std::string& port, Value value, const std::string& origin,
                const std::string& digest);
   /// Makes what the port `source` holds available as `port` too, in another form.
@@ -37,10 +46,10 @@ class Session {
   /// Runs a stage, stores its output in place of an older one, and says its warnings.
   /// \return its report
   const Report& run(const Stage& stage);
-  /// Writes the last output and report of the stage to the folder to keep, if there is one, and the
-  /// times of all stages to its times.json: reports and artifacts hold none, for equal work to give
-  /// equal bytes.
+  /// Hands the last output and record of the stage to the keeper, if there is one.
   void keep(const Stage& stage);
+  /// A line for the user.
+  void say(const std::string& line) { observer_->say(line); }
 
   template <class T>
   [[nodiscard]] const T& get(const std::string& port) const {
@@ -60,8 +69,8 @@ class Session {
   /// Notes the digests of those inputs that are files.
   void note_inputs(const Stage& stage, Provenance& provenance) const;
 
-  ConsoleObserver* console_;
-  std::filesystem::path folder_;
+  StageObserver* observer_;
+  Keeper keeper_;
   std::map<std::string, Entry> values_;
   std::vector<StageRecord> records_;
   std::map<std::string, double> seconds_;  // by stage, all its runs together

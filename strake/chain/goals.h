@@ -4,9 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "common/stage/console.h"
 #include "common/stage/stage.h"
-#include "strake/session.h"
+#include "strake/chain/session.h"
 
 namespace strake {
 
@@ -29,8 +28,7 @@ enum class Counted { vertices, faces };
 /// then only the scale of all distances changes. Where more than 2 % of the count are missing in
 /// the end the cells that are farthest off are divided. \return the port of the result
 std::string meet_count(Session& session, const GoalStages& stages, Counted counted,
-                       std::int64_t wanted, std::optional<std::int64_t> feedback_rounds,
-                       ConsoleObserver& console);
+                       std::int64_t wanted, std::optional<std::int64_t> feedback_rounds);
 
 /// Traces once, at the distances that the options of tracing ask for. \return the port of the
 /// result
@@ -41,7 +39,7 @@ std::string follow_spacing(Session& session, const GoalStages& stages);
 /// \param tolerance  as `Length::to_string` gives it
 /// \return the port of the result
 /// \throw ToleranceError naming places where that is not reached
-std::string meet_tolerance(Session& session, const GoalStages& stages, const std::string& tolerance,
-                           ConsoleObserver& console);
+std::string meet_tolerance(Session& session, const GoalStages& stages,
+                           const std::string& tolerance);
 
 }  // namespace strake

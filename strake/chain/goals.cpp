@@ -1,4 +1,4 @@
-#include "strake/goals.h"
+#include "strake/chain/goals.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "common/core/error.h"
-#include "strake/count_search.h"
-#include "strake/density_match.h"
+#include "strake/chain/count_search.h"
+#include "strake/chain/density_match.h"
 
 namespace strake {
 namespace {
@@ -89,8 +89,7 @@ void follow_density(Session& session, const GoalStages& stages, Counted counted,
 }
 
 /// Looks for the scale of distances that gives the count. \pre traced and meshed at the present one
-void search_scale(Session& session, const GoalStages& stages, Counted counted, std::int64_t aim,
-                  ConsoleObserver& console) {
+void search_scale(Session& session, const GoalStages& stages, Counted counted, std::int64_t aim) {
   const Option& option = stages.trace.option("spacing-scale");
   CountSearch search(aim, std::stod(option.value()), option.min, option.max);
   Session best = session;
@@ -100,11 +99,11 @@ void search_scale(Session& session, const GoalStages& stages, Counted counted, s
       trace_and_mesh(session, stages);
     } catch (const AlgorithmError& error) {
       if (search.trial_count() == 0) throw;
-      console.say(std::string("warning: gave up correcting the count: ") + error.what());
+      session.say(std::string("warning: gave up correcting the count: ") + error.what());
       break;
     }
     const std::int64_t count = count_of(session, "quads", counted);
-    console.say(fmt::format("{} {}, {} wanted", count, name_of(counted), aim));
+    session.say(fmt::format("{} {}, {} wanted", count, name_of(counted), aim));
     search.record(*scale, count);
     if (search.best().scale == *scale) best = session;
   }
@@ -146,8 +145,7 @@ std::string refine_in_turn(Session& session, const GoalStages& stages) {
 }  // namespace
 
 std::string meet_count(Session& session, const GoalStages& stages, Counted counted,
-                       std::int64_t wanted, std::optional<std::int64_t> feedback_rounds,
-                       ConsoleObserver& console) {
+                       std::int64_t wanted, std::optional<std::int64_t> feedback_rounds) {
   if (session.has("density") && !feedback_rounds) {
     follow_density(session, stages, counted, wanted);
   } else {
@@ -156,7 +154,7 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
       feed_back(session, stages, counted, wanted);
     }
   }
-  search_scale(session, stages, counted, wanted, console);
+  search_scale(session, stages, counted, wanted);
   session.keep(stages.trace);
   session.keep(stages.mesh);
   session.run(stages.fit);
@@ -173,7 +171,7 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
   const std::int64_t reached = count_of(session, "fitted", counted);
   const double off = std::abs(static_cast<double>(reached - wanted)) / static_cast<double>(wanted);
   if (off > kCountTolerance) {
-    console.say(fmt::format(
+    session.say(fmt::format(
         "warning: {} {} were wanted, but the nearest result has {}: the shape, --max-spacing or "
         "the mesh's own resolution do not allow it",
         wanted, name_of(counted), reached));
@@ -189,14 +187,14 @@ std::string follow_spacing(Session& session, const GoalStages& stages) {
   return "fitted";
 }
 
-std::string meet_tolerance(Session& session, const GoalStages& stages, const std::string& tolerance,
-                           ConsoleObserver& console) {
+std::string meet_tolerance(Session& session, const GoalStages& stages,
+                           const std::string& tolerance) {
   stages.refine.option("refine-tolerance").parse_into(tolerance);
   const Option& scale = stages.trace.option("spacing-scale");
   for (int closer = 0;; ++closer) {
     const std::string fitted = follow_spacing(session, stages);
     if (only_quads(stages)) {
-      console.say(
+      session.say(
           "warning: with --pure-quads cells are not divided: the tolerance steers the spacing of "
           "lines, and may be exceeded");
       return fitted;
@@ -206,7 +204,7 @@ std::string meet_tolerance(Session& session, const GoalStages& stages, const std
     } catch (const ToleranceError&) {
       if (closer == kCloserLines) throw;
     }
-    console.say("dividing cells does not reach the tolerance; tracing closer lines");
+    session.say("dividing cells does not reach the tolerance; tracing closer lines");
     const double closer_scale = kCloser * std::stod(scale.value());
     scale.parse_into(fmt::format("{}", std::clamp(closer_scale, scale.min, scale.max)));
   }

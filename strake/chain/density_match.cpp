@@ -1,4 +1,4 @@
-#include "strake/density_match.h"
+#include "strake/chain/density_match.h"
 
 #include <cmath>
 

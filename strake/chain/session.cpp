@@ -1,24 +1,9 @@
-#include "strake/session.h"
+#include "strake/chain/session.h"
 
 #include <chrono>
 #include <utility>
 
-#include "common/artifact/artifact.h"
-#include "common/artifact/text_file.h"
-#include "common/core/error.h"
-
 namespace strake {
-
-namespace fs = std::filesystem;
-
-void Session::keep_in(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!fs::is_directory(folder)) {
-    throw InputError("folder '" + folder.string() + "' cannot be made: " + error.message());
-  }
-  folder_ = folder;
-}
 
 void Session::provide(const std::string& port, Value value, const std::string& origin,
                       const std::string& digest) {
@@ -47,18 +32,18 @@ void Session::note_inputs(const Stage& stage, Provenance& provenance) const {
 }
 
 const Report& Session::run(const Stage& stage) {
-  console_->begin(stage.name);
+  observer_->begin(stage.name);
   Inputs inputs;
   for (const Port& port : stage.inputs) {
     const auto entry = values_.find(port.name);
     if (entry != values_.end()) inputs.add(port.name, {entry->second.value, entry->second.origin});
   }
   const auto begin = std::chrono::steady_clock::now();
-  StageResult result = run_stage(stage, inputs, *console_);
+  StageResult result = run_stage(stage, inputs, *observer_);
   seconds_[stage.name] +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   for (const std::string& warning : result.report.warnings()) {
-    console_->say(stage.name + ": warning: " + warning);
+    say(stage.name + ": warning: " + warning);
   }
   if (result.output) provide(stage.output.name, std::move(*result.output), stage.output.name, "");
   StageRecord& record = record_of(stage);
@@ -68,17 +53,13 @@ const Report& Session::run(const Stage& stage) {
 }
 
 void Session::keep(const Stage& stage) {
-  if (folder_.empty()) return;
+  if (!keeper_) return;
   StageRecord& record = record_of(stage);
   note_inputs(stage, record.provenance);
-  if (stage.output.kind != PortKind::report) {
-    const fs::path path = folder_ / (stage.output.name + ".hdf");
-    Entry& entry = values_.at(stage.output.name);
-    save_value(path, *entry.value, &get<TriMesh>("mesh"), record.provenance);
-    entry.digest = content_digest(path);
-  }
-  write_text(folder_ / (stage.name + ".json"), record_json(record));
-  write_text(folder_ / "times.json", times_json(seconds_));
+  const auto entry = values_.find(stage.output.name);
+  const Value* output = entry == values_.end() ? nullptr : entry->second.value.get();
+  const std::string digest = keeper_({stage, record, output, get<TriMesh>("mesh"), seconds_});
+  if (output != nullptr) entry->second.digest = digest;
 }
 
 }  // namespace strake

@@ -1,0 +1,76 @@
+#include <algorithm>
+
+#include "common/core/error.h"
+#include "common/stage/overloaded.h"
+#include "common/stage/value.h"
+
+namespace strake {
+namespace {
+
+/// Whether every index that `lines` holds exists in `mesh`.
+bool fits(const TriMesh& mesh, const LineSet& lines) {
+  return lines.spacing_along_min.size() == mesh.wedge_vertex.size() &&
+         std::all_of(
+             lines.points.begin(), lines.points.end(),
+             [&](const LinePoint& point) { return point.halfedge < mesh.halfedge_count(); }) &&
+         std::all_of(lines.chord_face.begin(), lines.chord_face.end(),
+                     [&](Index face) { return face < mesh.face_count(); });
+}
+
+bool fits(const TriMesh& mesh, const Value& value) {
+  const std::size_t wedges = mesh.wedge_vertex.size();
+  return std::visit(Overloaded{
+                        [&](const TensorField& field) { return field.tensor.size() == wedges; },
+                        [&](const PrincipalField& field) {
+                          const auto& faces = field.guides.face;
+                          return field.normal.size() == wedges &&
+                                 field.face_confidence.size() == mesh.faces.size() &&
+                                 std::all_of(faces.begin(), faces.end(),
+                                             [&](Index face) { return face < mesh.face_count(); });
+                        },
+                        [&](const LineSet& lines) { return fits(mesh, lines); },
+                        [&](const TensorPart& part) {
+                          return part.wedge.empty() || part.wedge.back() < mesh.wedge_count();
+                        },
+                        [&](const QuadMesh& quads) {
+                          const auto& faces = quads.provenance.face;
+                          return std::all_of(faces.begin(), faces.end(),
+                                             [&](Index face) { return face < mesh.face_count(); });
+                        },
+                        [&](const SizeField& size) { return size.along.size() == wedges; },
+                        [](const auto&) { return true; },
+                    },
+                    value);
+}
+
+}  // namespace
+
+std::string mesh_id_of(const Value& value) {
+  return std::visit(Overloaded{[](const TriMesh& mesh) { return mesh.id; },
+                               [](const OpenedMesh& mesh) { return mesh->header().id; },
+                               [](const EdgeList&) { return std::string(); },
+                               [](const GuideLines&) { return std::string(); },
+                               [](const auto& other) { return other.mesh_id; }},
+                    value);
+}
+
+void check_belongs(const TriMesh& mesh, const std::string& mesh_name, const Value& value,
+                   const std::string& name) {
+  const std::string id = mesh_id_of(value);
+  if (id.empty() &&
+      (std::holds_alternative<Polygons>(value) || std::holds_alternative<DensityField>(value) ||
+       std::holds_alternative<GuideLines>(value))) {
+    return;
+  }
+  if (id != mesh.id) {
+    throw PreconditionError("'" + name + "' belongs to another mesh than '" + mesh_name + "' (" +
+                            id + ", not " + mesh.id +
+                            "); give the mesh it was made from, or make it again");
+  }
+  if (!fits(mesh, value)) {
+    throw InputError("'" + name + "' names elements that '" + mesh_name +
+                     "' does not have; the file is damaged, make it again");
+  }
+}
+
+}  // namespace strake

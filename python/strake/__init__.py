@@ -1,0 +1,275 @@
+"""Anisotropic quad-dominant remeshing along lines of curvature, on numpy arrays.
+
+    import strake
+    V, F = strake.remesh(vertices, faces, vertices_wanted=5000)
+
+`remesh` runs the whole chain; `import_mesh`, `tensor`, `smooth`, `trace`, `mesh`, `fit`, `size`, `refine`
+and `evaluate` are its stages. Options are keyword arguments with the names of the command line,
+dashes written as underscores: `feature_angle=30`, `pure_quads=True`. Lengths are numbers in model
+units, or text such as "0.1%", a share of the bounding-box diagonal. Two names differ, since results
+have vertices and faces too: `vertices_wanted` and `faces_wanted`.
+
+Every function takes `threads` (0: all processors; never changes a result) and `progress`, called as
+progress(stage, phase, fraction) some times a second. Other Python threads go on meanwhile, and
+Ctrl-C cancels. What goes wrong raises a subclass of `Error`.
+"""
+
+import warnings as _warnings
+
+import numpy as _np
+
+from . import _core
+from ._core import (AlgorithmError, DensityField, EdgeList, Error, InputError, LineSet, Polygons,
+                    PreconditionError, PrincipalField, QuadMesh, SizeField, TensorField,
+                    ToleranceError, TriMesh, UsageError, __version__, line_points)
+
+__all__ = [
+    "AlgorithmError", "DensityField", "EdgeList", "Error", "Faces", "InputError", "LineSet",
+    "Polygons", "PreconditionError", "PrincipalField", "QuadMesh", "Remeshed", "SizeField",
+    "TensorField", "ToleranceError", "TriMesh", "UsageError", "evaluate", "fit", "import_mesh",
+    "line_points", "mesh", "polygons", "refine", "remesh", "size", "smooth", "tensor", "trace",
+]
+
+Error.__doc__ = "What goes wrong in strake; the message names a remedy."
+UsageError.__doc__ = "An option is unknown, malformed or out of range."
+InputError.__doc__ = "A mesh holds nothing usable, or an array is not as it should be."
+PreconditionError.__doc__ = "Values are each sound but do not belong together."
+AlgorithmError.__doc__ = "A result failed its own check, so it is not handed out."
+ToleranceError.__doc__ = "A result is farther from its surface than was asked for."
+
+_RENAMED = {"vertices_wanted": "vertices", "faces_wanted": "faces"}
+
+
+class Faces:
+    """Polygons: face f has the corners corners[offsets[f]:offsets[f + 1]], counter-clockwise.
+
+    A sequence of arrays, one per face; `quads` and `triangles` are plain arrays of those faces.
+    """
+
+    def __init__(self, offsets, corners):
+        self.offsets = offsets
+        self.corners = corners
+
+    def __len__(self):
+        return len(self.offsets) - 1
+
+    def __getitem__(self, face):
+        face = range(len(self))[face]
+        return self.corners[self.offsets[face]:self.offsets[face + 1]]
+
+    def __repr__(self):
+        sizes, counts = _np.unique(self.sizes, return_counts=True)
+        kinds = ", ".join(f"{count} of {size} corners" for size, count in zip(sizes, counts))
+        return f"<strake.Faces: {len(self)} faces ({kinds})>"
+
+    @property
+    def sizes(self):
+        """[F] number of corners of each face."""
+        return _np.diff(self.offsets)
+
+    def of_size(self, size):
+        """[N, size] all faces with so many corners."""
+        first = self.offsets[:-1][self.sizes == size]
+        return self.corners[first[:, None] + _np.arange(size)]
+
+    @property
+    def quads(self):
+        """[Q, 4] the quads."""
+        return self.of_size(4)
+
+    @property
+    def triangles(self):
+        """[T, 3] the triangles."""
+        return self.of_size(3)
+
+
+def _faces(self):
+    """The polygons as `Faces`."""
+    return Faces(self.offsets, self.corners)
+
+
+QuadMesh.faces = property(_faces)
+Polygons.faces = property(_faces)
+
+
+class Remeshed:
+    """What `remesh` gives; unpacks as `V, F = result`."""
+
+    def __init__(self, quad_mesh, mesh, field, reports, messages):
+        self.quad_mesh = quad_mesh  #: QuadMesh: the result, and where its vertices lie on `mesh`
+        self.mesh = mesh            #: TriMesh: the input as repaired
+        self.field = field          #: PrincipalField: directions that edges follow
+        self.reports = reports      #: dict by stage of dicts: counts and measures
+        self.messages = messages    #: list of text: warnings, and how near a count came
+
+    @property
+    def vertices(self):
+        """[V, 3]"""
+        return self.quad_mesh.vertices
+
+    @property
+    def faces(self):
+        """The polygons as `Faces`."""
+        return self.quad_mesh.faces
+
+    def __iter__(self):
+        return iter((self.vertices, self.faces))
+
+    def __repr__(self):
+        return f"<strake.Remeshed: {len(self.vertices)} vertices, {len(self.faces)} faces>"
+
+
+def _settings(options):
+    """Options as the text of the command line, by its names."""
+    def text(value):
+        if isinstance(value, (bool, _np.bool_)):
+            return "true" if value else "false"
+        return str(value)
+    return {_RENAMED.get(name, name).replace("_", "-"): text(value)
+            for name, value in options.items() if value is not None}
+
+
+def _offsets_and_corners(faces):
+    """Faces given as an array, as `Faces`, as (offsets, corners) or as a list of lists."""
+    if isinstance(faces, Faces):
+        return faces.offsets, faces.corners
+    if isinstance(faces, tuple) and len(faces) == 2 and _np.ndim(faces[0]) == 1:
+        return faces
+    if isinstance(faces, _np.ndarray) and faces.ndim == 2:
+        return _np.arange(len(faces) + 1) * faces.shape[1], faces.reshape(-1)
+    sizes = [len(face) for face in faces]
+    corners = [corner for face in faces for corner in face]
+    return _np.cumsum([0] + sizes), _np.array(corners, dtype=_np.int32)
+
+
+def polygons(vertices, faces, colours=None, labels=None):
+    """A polygon mesh from arrays.
+
+    vertices: [V, 3]. faces: an array [F, 3] or [F, 4], `Faces`, (offsets, corners), or a list of
+    lists, counter-clockwise. colours: [V, 3] or [V, 4] in [0, 1]. labels: dict of [F] integers,
+    such as the material of every face; both are carried to the result.
+    """
+    offsets, corners = _offsets_and_corners(faces)
+    if colours is not None:
+        colours = _np.asarray(colours, dtype=float)
+        if colours.ndim == 2 and colours.shape[1] == 3:
+            colours = _np.hstack([colours, _np.ones((len(colours), 1))])
+    return _core.polygons(vertices, offsets, corners, colours, labels or {})
+
+
+def _edges(feature_edges):
+    return None if feature_edges is None else _core.edge_list(feature_edges)
+
+
+def _guides(guides):
+    return None if guides is None else _core.guides(guides)
+
+
+def _density(density):
+    return None if density is None else _core.density(density)
+
+
+def remesh(vertices, faces, *, colours=None, labels=None, feature_edges=None, guides=None,
+           density=None, measure=True, threads=0, progress=None, **options):
+    """Remeshes a surface with quads along its curvature. Gives a `Remeshed`: V, F = remesh(...).
+
+    vertices, faces, colours, labels: as for `polygons`. feature_edges: [N, 2] pairs of vertices
+    whose edges are kept besides those that bend. guides: list of [N, 3] points of lines on or near
+    the surface along which edges are to run. density: [V] positive, wanted vertices per area
+    relative to what they would be without. measure: whether to measure the result
+    (reports["evaluate"]).
+    """
+    soup = polygons(vertices, faces, colours, labels)
+    return Remeshed(*_core.remesh(soup, _edges(feature_edges), _guides(guides),
+                                  _density(density),
+                                  _settings(options), measure, threads, progress))
+
+
+def _run(stage, inputs, options, threads, progress):
+    """Runs a stage. Warnings of its report become Python's. Gives output and report."""
+    given = {port: value for port, value in inputs.items() if value is not None}
+    output, report, sentences = _core.run(stage, given, _settings(options), threads, progress)
+    for sentence in sentences:
+        _warnings.warn(f"{stage}: {sentence}", stacklevel=3)
+    return output, report
+
+
+def import_mesh(vertices, faces, *, colours=None, labels=None, feature_edges=None, threads=0,
+                progress=None, **options):
+    """Turns polygons into a sound `TriMesh` with its feature graph; the start of all stages."""
+    inputs = {"input": polygons(vertices, faces, colours, labels),
+              "feature-edges": _edges(feature_edges)}
+    return _run("import", inputs, options, threads, progress)[0]
+
+
+def tensor(mesh, *, threads=0, progress=None, **options):
+    """Estimates the curvature tensor at every wedge of a TriMesh. Gives a `TensorField`."""
+    return _run("tensor", {"mesh": mesh}, options, threads, progress)[0]
+
+
+def smooth(mesh, tensor, *, guides=None, threads=0, progress=None, **options):
+    """Smooths curvature tensors and extracts principal frames. Gives a `PrincipalField`.
+
+    guides: list of [N, 3] points of lines that edges are to follow.
+    """
+    inputs = {"mesh": mesh, "tensor": tensor, "guides": _guides(guides)}
+    return _run("smooth", inputs, options, threads, progress)[0]
+
+
+def trace(mesh, field, *, size=None, density=None, threads=0, progress=None, **options):
+    """Covers a TriMesh with lines of curvature, boundary and feature lines. Gives a `LineSet`.
+
+    size: a SizeField to take instead of a tolerance. density: [vertices of the input], as for
+    `remesh`.
+    """
+    inputs = {"mesh": mesh, "field": field, "size": size, "density": _density(density)}
+    return _run("trace", inputs, options, threads, progress)[0]
+
+
+def mesh(mesh, lines, *, threads=0, progress=None, **options):
+    """Builds the polygons between lines. Gives a `QuadMesh`."""
+    return _run("mesh", {"mesh": mesh, "lines": lines}, options, threads, progress)[0]
+
+
+def fit(mesh, quads, *, field=None, threads=0, progress=None, **options):
+    """Moves vertices of a QuadMesh so that its faces lie nearer to the TriMesh."""
+    inputs = {"mesh": mesh, "quads": quads, "field": field}
+    return _run("fit", inputs, options, threads, progress)[0]
+
+
+def size(mesh, field, lines, quads, *, density=None, threads=0, progress=None, **options):
+    """Wanted distances of lines that even out the errors of a QuadMesh. Gives a `SizeField`."""
+    inputs = {"mesh": mesh, "field": field, "lines": lines, "fitted": quads,
+              "density": _density(density)}
+    return _run("size", inputs, options, threads, progress)[0]
+
+
+def refine(mesh, quads, *, threads=0, progress=None, **options):
+    """Divides cells of a QuadMesh that are too far from the TriMesh."""
+    return _run("refine", {"mesh": mesh, "fitted": quads}, options, threads, progress)[0]
+
+
+def evaluate(mesh, candidate, *, field=None, threads=0, progress=None, **options):
+    """Measures a QuadMesh, or any `polygons`, against a TriMesh. Gives a dict by dotted key."""
+    if isinstance(candidate, QuadMesh):
+        candidate = _core.polygons_of(candidate)
+    inputs = {"mesh": mesh, "candidate": candidate, "field": field}
+    return _run("evaluate", inputs, options, threads, progress)[1]
+
+
+def _describe(function, declared):
+    """Adds the declared options to a docstring."""
+    lines = []
+    for option in declared:
+        name = {old: new for new, old in _RENAMED.items()}.get(option["name"], option["name"])
+        unit = f" ({option['unit']})" if option["unit"] else ""
+        default = f" Default: {option['default']}." if option["default"] else ""
+        lines.append(f"    {name.replace('-', '_')}{unit}: {option['help']}{default}")
+    if lines:
+        function.__doc__ = function.__doc__.rstrip() + "\n\n    Options:\n\n" + "\n".join(lines) + "\n"
+
+
+_describe(remesh, _core.remesh_options())
+_describe(import_mesh, _core.stage_options("import"))
+for _function in (tensor, smooth, trace, mesh, fit, size, refine, evaluate):
+    _describe(_function, _core.stage_options(_function.__name__))

@@ -1,0 +1,83 @@
+#include "strake/chain/chain.h"
+
+#include "common/core/error.h"
+#include "stages/evaluate/stage.h"
+#include "stages/fit/stage.h"
+#include "stages/import/stage.h"
+#include "stages/mesh/stage.h"
+#include "stages/refine/stage.h"
+#include "stages/size/stage.h"
+#include "stages/smooth/stage.h"
+#include "stages/tensor/stage.h"
+#include "stages/trace/stage.h"
+#include "strake/chain/goals.h"
+
+namespace strake {
+
+Chain::Chain()
+    : import(import_stage()),
+      tensor(tensor_stage()),
+      smooth(smooth_stage()),
+      trace(trace_stage()),
+      mesh(mesh_stage()),
+      fit(fit_stage()),
+      size(size_stage()),
+      refine(refine_stage()),
+      evaluate(evaluate_stage()) {}
+
+OptionList Chain::declare(std::optional<std::int64_t>& rounds) {
+  return {{.name = "feedback-rounds",
+           .target = &rounds,
+           .unit = "",
+           .help =
+               "Times that lines are traced again to even out errors, where a count is wanted; 1, "
+               "with a density as many as it takes.",
+           .min = 0,
+           .max = 20}};
+}
+
+std::vector<const Stage*> Chain::stages() const {
+  return {&import, &tensor, &smooth, &trace, &mesh, &fit, &size, &refine, &evaluate};
+}
+
+void Chain::check_goals() const {
+  int goals = 0;
+  for (const char* name : {"tolerance", "vertices", "faces"}) {
+    if (!trace.option(name).value().empty()) ++goals;
+  }
+  if (goals > 1) {
+    throw UsageError("--tolerance, --vertices and --faces exclude each other; give one of them");
+  }
+}
+
+std::string Chain::reach_goal(Session& session) const {
+  const GoalStages goal_stages{trace, mesh, fit, size, refine};
+  for (const Counted counted : {Counted::vertices, Counted::faces}) {
+    const char* name = counted == Counted::vertices ? "vertices" : "faces";
+    const std::string wanted = trace.option(name).value();
+    if (wanted.empty()) continue;
+    return meet_count(session, goal_stages, counted, std::stoll(wanted), feedback_rounds);
+  }
+  const std::string tolerance = trace.option("tolerance").value();
+  if (tolerance.empty()) return follow_spacing(session, goal_stages);
+  return meet_tolerance(session, goal_stages, tolerance);
+}
+
+std::string Chain::run(Session& session) const {
+  check_goals();
+  for (const Stage* stage : {&import, &tensor, &smooth}) {
+    session.run(*stage);
+    session.keep(*stage);
+  }
+  return reach_goal(session);
+}
+
+const Report& Chain::measure(Session& session, const std::string& port) const {
+  const QuadMesh& quads = session.get<QuadMesh>(port);
+  session.provide_as("candidate", Polygons{quads.mesh, quads.mesh_id, {}}, port);
+  const Report& report = session.run(evaluate);
+  session.keep(evaluate);
+  return report;
+}
+
+}  // namespace strake

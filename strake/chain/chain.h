@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/stage/stage.h"
+#include "strake/chain/session.h"
+
+namespace strake {
+
+/// The standard chain from a mesh as read to a measured result. Copies share option values.
+struct Chain {
+  Chain();
+
+  Stage import;
+  Stage tensor;
+  Stage smooth;
+  Stage trace;
+  Stage mesh;
+  Stage fit;
+  Stage size;
+  Stage refine;
+  Stage evaluate;
+
+  std::optional<std::int64_t> feedback_rounds;  ///< as `meet_count` takes them
+  /// The options of the chain as a whole, which point into this object.
+  OptionList declare() { return declare(feedback_rounds); }
+  static OptionList declare(std::optional<std::int64_t>& feedback_rounds);
+
+  /// All stages, in the order of their first run.
+  [[nodiscard]] std::vector<const Stage*> stages() const;
+  /// \throw UsageError where more than one goal is given
+  void check_goals() const;
+  /// Runs all stages but the last, those from tracing on as often as the goal takes. Changes option
+  /// values on the way. \pre the session was provided with "input" and what else is known
+  /// \return the port of the result
+  std::string run(Session& session) const;
+  /// Runs the last one, on the result. \return its report
+  const Report& measure(Session& session, const std::string& port) const;
+
+ private:
+  std::string reach_goal(Session& session) const;
+};
+
+}  // namespace strake
