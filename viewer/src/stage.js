@@ -6,6 +6,16 @@ import { RunObjects, SharedObjects } from "./objects.js";
 
 const firstDirection = new THREE.Vector3(0.55, 0.35, 0.85).normalize();
 const margin = 1.12;
+const restMs = 600;
+
+/** Whether there is no graphics processor: multisampling takes three times as long then. */
+function drawsInSoftware() {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const name = gl?.getExtension("WEBGL_debug_renderer_info");
+  const isSoftware = Boolean(name) && /swiftshader|llvmpipe|software|basic render/i.test(gl.getParameter(name.UNMASKED_RENDERER_WEBGL));
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return isSoftware;
+}
 
 export class Stage {
   /** \param changed  called after the user has moved the camera */
@@ -14,7 +24,8 @@ export class Stage {
     this.view = view;
     const shared = new SharedObjects();
     this.objects = runs.map((run) => new RunObjects(run, runs, shared));
-    this.renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+    this.isSoftware = drawsInSoftware();
+    this.renderer = new THREE.WebGLRenderer({ antialias: !this.isSoftware, preserveDrawingBuffer: true });
     THREE.ColorManagement.enabled = false;
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     this.renderer.autoClear = false;
@@ -87,19 +98,23 @@ export class Stage {
 
   resize() {
     const { clientWidth, clientHeight } = this.canvas.parentElement;
-    if (clientWidth === 0 || clientHeight === 0) return;
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    this.renderer.setSize(clientWidth, clientHeight, false);
+    const size = `${clientWidth} ${clientHeight} ${devicePixelRatio}`;
+    if (clientWidth === 0 || clientHeight === 0 || size === this.size) return;
+    this.size = size;
+    this.setRatio(Math.min(devicePixelRatio, 2));
     if (!this.view.camera) this.reset();
     this.draw();
   }
 
   draw() {
     if (this.waiting) return;
-    this.waiting = requestAnimationFrame(() => {
-      this.waiting = null;
-      this.drawNow();
-    });
+    this.waiting = requestAnimationFrame(() => this.drawNow());
+  }
+
+  setRatio(ratio) {
+    const { clientWidth, clientHeight } = this.canvas.parentElement;
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(clientWidth, clientHeight, false);
   }
 
   /** Places of the panes in CSS pixels: what they may draw on, and what their camera looks at. */
@@ -123,8 +138,16 @@ export class Stage {
     ];
   }
 
-  drawNow() {
+  /** \param fine  smooth edges in software too; without it they follow when nothing has changed for a while */
+  drawNow(fine = !this.isSoftware) {
     const { renderer } = this;
+    cancelAnimationFrame(this.waiting);
+    this.waiting = null;
+    clearTimeout(this.resting);
+    if (!fine) this.resting = setTimeout(() => this.drawNow(true), restMs);
+    this.isFine = fine;
+    const ratio = fine && this.isSoftware ? 2 : Math.min(devicePixelRatio, 2);
+    if (renderer.getPixelRatio() !== ratio) this.setRatio(ratio);
     this.setSection();
     renderer.setScissorTest(false);
     renderer.setClearColor(getComputedStyle(this.canvas).backgroundColor);
@@ -192,7 +215,7 @@ function prepare(part, name, ink, area, ratio) {
     uniforms.colour.value.copy(ink);
     // Many edges would turn the surface black.
     const edges = part.geometry.index.count / 2;
-    uniforms.opacity.value = name === "triangles" ? 0.22 : Math.min(Math.max(60 / Math.sqrt(edges), 0.35), 0.75);
+    uniforms.opacity.value = name === "triangles" ? 0.22 : Math.min(Math.max(60 / Math.sqrt(edges), 0.35) * (ratio > 1 ? 1.3 : 1), 0.9);
   }
 }
 

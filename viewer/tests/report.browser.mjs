@@ -162,6 +162,8 @@ async function checkLooks(browser, report) {
     const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     assert.ok(wide <= 0, `${name}: the page is ${wide} pixels too wide`);
     assert.deepEqual(await page.locator("h1, th, option").locator("b").count(), 0, "a name became markup");
+    await page.waitForFunction(() => window.strakeReport.stage.isFine || window.strakeReport.view.tab !== "surface");
+    await page.waitForTimeout(300);
     await page.screenshot({ path: join(shots, `${report.name}-${name}.png`) });
     await page.context().close();
   }

@@ -133,9 +133,10 @@ TEST(ReportScene, LargeInputsAreDrawnWithFewerFacesThatStayNear) {
 }
 
 TEST(ReportScene, LinesKeepTheirEndsSeedsAndLengths) {
-  const auto& [prepared, lines, quads] = example();
+  const TriMesh& mesh = example().prepared.mesh;
+  const LineSet& lines = example().lines;
   Blocks blocks;
-  const Json scene = report::line_scene(prepared.mesh, lines, blocks);
+  const Json scene = report::line_scene(mesh, lines, blocks);
   const auto bytes = from_base64(blocks.base64());
   const auto points = decode<GridRow>(scene.at("points"), bytes);
   struct Row {
@@ -151,7 +152,7 @@ TEST(ReportScene, LinesKeepTheirEndsSeedsAndLengths) {
     const std::uint32_t end =
         l + 1 < lines.line_count() ? rows[l + 1].first : static_cast<std::uint32_t>(points.size());
     const auto near = [&](std::uint32_t row, Index p) {
-      const Vec3 wanted = line_point_position(prepared.mesh, lines.points[p]);
+      const Vec3 wanted = line_point_position(mesh, lines.points[p]);
       EXPECT_LE((place(scene, points[row]) - wanted).norm(), step) << "line " << l;
     };
     near(rows[l].first, lines.offsets[l]);
