@@ -1,6 +1,6 @@
 """Runs the code of docs/artifacts-in-python.md on real files: artifacts_in_python.py PROGRAMS.
 
-Exit code 77 (skip) where this Python has no h5py.
+Exit code 77 (skip), with CI set 1, where this Python has no h5py.
 """
 
 import os
@@ -15,7 +15,7 @@ try:
     import numpy as np
 except ImportError:
     print("skipped: install python3-h5py to run this test")
-    sys.exit(77)
+    sys.exit(1 if os.environ.get("CI") else 77)
 
 GUIDE = pathlib.Path(__file__).parents[2] / "docs/artifacts-in-python.md"
 MINOR, MAJOR = 0.4, 1.0  # radii of the sample
