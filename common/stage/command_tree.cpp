@@ -38,6 +38,7 @@ void collect(const CLI::App& app, const std::string& heading, CommandTree& tree,
   CommandGroup own{heading, is_group ? app.get_description() : "", {}};
   for (const CLI::Option* option : app.get_options()) {
     if (of_groups.count(option) != 0 || !seen.insert(option).second) continue;
+    if (is_group && option == app.get_help_ptr()) continue;  // each has one of its own, unused
     if (option->nonpositional()) {
       own.options.push_back(word_of(*option));
     } else {

@@ -130,6 +130,7 @@ class Manual(unittest.TestCase):
             text = re.sub(r"\x1b\[[\d;]*m|.\x08", "", done.stdout).replace("\u2010", "-")
             self.assertLessEqual(options_of(output_of(BIN / program, "--help")), options_of(text),
                                  program)
+            self.assertEqual(len(re.findall(r"--help\b", text.split("COMMANDS")[0])), 1, program)
             for section in ("NAME", "SYNOPSIS", "OPTIONS", "EXIT STATUS"):
                 self.assertIn(section, text)
 
