@@ -3,22 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <unordered_map>
 
 #include "common/geometry/line_chord.h"
 #include "stages/trace/line_closing.h"
+#include "stages/trace/line_progress.h"
 
 namespace strake {
 namespace {
 
-constexpr double kStepShare = 0.25;     ///< integration step as a share of the line distance
-constexpr double kOwnSkip = 2.0;        ///< stop distances along itself that a line does not see
-constexpr double kWayOut = 1.2;         ///< stop distances at which a line is out of narrows
-constexpr double kLongestNarrows = 30;  ///< line distances that a line may run in narrows
-constexpr int kMaxSteps = 200000;       ///< hard bound on one half line
-constexpr double kLongestStay = 2;      ///< perimeters of a face that a line may run within it
-constexpr std::size_t kPointsPerLook = 64;  ///< after which a line looks whether it winds
-constexpr std::size_t kStepsPerGap = 4;     ///< between places where a finished line is judged
+constexpr double kStepShare = 0.25;      ///< integration step as a share of the line distance
+constexpr double kOwnSkip = 2.0;         ///< stop distances along itself that a line does not see
+constexpr double kWayOut = 1.2;          ///< stop distances at which a line is out of narrows
+constexpr double kLongestNarrows = 30;   ///< line distances that a line may run in narrows
+constexpr int kMaxSteps = 200000;        ///< hard bound on one half line
+constexpr std::size_t kStepsPerGap = 4;  ///< between places where a finished line is judged
 
 /// Weight of the newest direction in the trusted one, "the average of the last few" ([MK04] 4.2).
 constexpr double kTrustedShare = 0.3;
@@ -46,30 +44,6 @@ bool join(const TriMesh& mesh, const HalfLine& forward, const HalfLine& backward
   result.chord_face.back() = forward.end == LineEnd::closed ? forward.faces.front() : kNone;
   return seed.is_anchored() || backward.points.empty() || forward.points.empty() ||
          is_proper_chord(mesh, forward.seed_face, backward.points.front(), forward.points.front());
-}
-
-double perimeter(const FaceChart& face) {
-  const auto& [a, b, c] = face.corner;
-  return (b - a).norm() + (c - b).norm() + (a - c).norm();
-}
-
-/// Whether a half line, from a point on, goes around something thinner than the distance at which
-/// it sees itself: it would wind on without end.
-bool winds(const TriMesh& mesh, const HalfLine& half, std::size_t from, double own_skip) {
-  std::unordered_map<Index, double> crossed;
-  double arc = 0;
-  for (std::size_t i = from; i < half.points.size(); ++i) {
-    const LinePoint& point = half.points[i];
-    if (i > from) {
-      arc +=
-          (line_point_position(mesh, point) - line_point_position(mesh, half.points[i - 1])).norm();
-    }
-    const Index edge = std::max(point.halfedge, mesh.twin[point.halfedge]);
-    const auto [last, is_new] = crossed.try_emplace(edge, arc);
-    if (!is_new && arc - last->second < own_skip) return true;
-    last->second = arc;
-  }
-  return false;
 }
 
 double length_of(const TriMesh& mesh, const TracedLine& line) {
@@ -141,11 +115,7 @@ void LineTracer::turn_back(const Narrows& narrows, LineHead& head, HalfLine& hal
 
 void LineTracer::trace_half(LineHead head, bool may_close, double stop_fraction, HalfLine& half) {
   half.end = LineEnd::step_limit;
-  int standing = 0;
-  std::size_t most_points = half.points.size();
-  double arc_there = head.arc;
-  std::size_t looked_at = 0;  // points, and places of crossings
-  std::size_t places_then = 0;
+  LineProgress progress(head);
   std::optional<Narrows> narrows;
   const auto closes = [&](double least_cosine) {
     return may_close && close_line(domain_, proximity_, walker_, head, least_cosine, half);
@@ -175,29 +145,16 @@ void LineTracer::trace_half(LineHead head, bool may_close, double stop_fraction,
     const double before = head.arc;
     if (!walker_.advance(head, head.heading * length, half)) return;
     half.crossings.note(domain_, head, spacing.along, head.arc - before);
-    standing = head.arc - before > 1e-3 * length ? 0 : standing + 1;
-    if (half.points.size() > most_points) {
-      most_points = half.points.size();
-      arc_there = head.arc;
+    const LineProgress::State state =
+        progress.after_step(domain_.mesh, head, half, length, head.arc - before,
+                            kOwnSkip * stop_fraction * spacing.to_neighbours);
+    if (state == LineProgress::State::gets_on) continue;
+    if (state == LineProgress::State::winds) {
+      walker_.take_back(head, half.points.size() - progress.good_points(), half);
+      half.crossings.shorten(progress.good_places());
     }
-    // A line that circles within a face never meets itself: it is recorded where it crosses edges.
-    const bool circles = head.arc - arc_there > kLongestStay * perimeter(head.context.chart);
-    const bool looks = half.points.size() >= looked_at + kPointsPerLook;
-    if (looks &&
-        winds(domain_.mesh, half, looked_at, kOwnSkip * stop_fraction * spacing.to_neighbours)) {
-      walker_.take_back(head, half.points.size() - looked_at, half);
-      half.crossings.shorten(places_then);
-      half.end = LineEnd::stuck;
-      return;
-    }
-    if (looks) {
-      looked_at = half.points.size();
-      places_then = half.crossings.all().size();
-    }
-    if (standing > 4 || circles) {
-      half.end = LineEnd::stuck;
-      return;
-    }
+    half.end = LineEnd::stuck;
+    return;
   }
 }
 

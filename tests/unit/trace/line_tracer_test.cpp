@@ -211,5 +211,35 @@ TEST_F(LinesOnAPlane, PassNarrowsWhereTheyGetOutAgain) {
   }
 }
 
+// A helix of gentle slope on a cylinder that is thinner than the distance of lines: what is left of
+// it is not even two windings long, where it would have forty.
+TEST(LineTracer, DoesNotWindAroundWhatIsThinnerThanTheDistanceOfLines) {
+  TriMesh mesh = sample_mesh(SampleKind::open_cylinder, 3000, 0.8);
+  for (Vec3& p : mesh.positions) p.z() *= 100;  // keeps the ends out of the way
+  const double slope = 5 / (2 * M_PI);
+  const PrincipalField field =
+      field_along(mesh, [&](const Vec3& p) { return Vec3(-p.y(), p.x(), slope).normalized(); });
+  Spacing spacing;
+  spacing.along.assign(mesh.wedge_count(), 10.0);
+  spacing.across.assign(mesh.wedge_count(), 10.0);
+  const TraceDomain domain{mesh, field, spacing, face_normals(mesh)};
+  std::vector<std::uint8_t> barriers(static_cast<std::size_t>(mesh.halfedge_count()), 0);
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) barriers[h] = mesh.is_boundary(h);
+  LineTracer tracer(domain, barriers, {});
+  Seed seed;
+  seed.face = mesh.face_count() / 2;
+  seed.direction = field.cross[mesh.face_wedges[seed.face][0]];
+  TracedLine line;
+  std::vector<Seed> spawned;
+  tracer.trace(seed, 0, line, spawned);
+  double length = 0;
+  for (std::size_t i = 1; i < line.points.size(); ++i) {
+    length +=
+        (line_point_position(mesh, line.points[i]) - line_point_position(mesh, line.points[i - 1]))
+            .norm();
+  }
+  EXPECT_LT(length, 4 * M_PI);
+}
+
 }  // namespace
 }  // namespace strake
