@@ -153,17 +153,27 @@ FaceCycles::Tile FaceCycles::tile_of(Index face) const {
 BallWalker::BallWalker(const FaceCycles& cycles)
     : cycles_(cycles), stamp_(static_cast<std::size_t>(cycles.mesh().face_count()), 0) {}
 
-/// Puts a face on the front, unless it is there or folds over to another sheet.
-void BallWalker::visit(Index face, const Vec3& normal) {
-  if (face == kNone || stamp_[face] == current_ || cycles_.normal(face).dot(normal) <= 0) return;
+/// Puts a face on the front, unless it is there. \return false where it folds over to another
+/// sheet: the bend towards it does not count
+bool BallWalker::visit(Index face, const Vec3& normal) {
+  if (face == kNone || stamp_[face] == current_) return true;
+  if (cycles_.normal(face).dot(normal) <= 0) return false;
   stamp_[face] = current_;
   front_.push_back(face);
+  return true;
 }
 
-void BallWalker::add_whole(const FaceCycles::Tile& tile, const Vec3& normal) {
+void BallWalker::add_whole(Index face, const Vec3& normal) {
+  const FaceCycles::Tile& tile = cycles_.tile(face);
   area_ += tile.area;
   for (std::size_t i = 0; i < sum_.size(); ++i) sum_[i] += tile.cycle[i];
-  for (const Index other : tile.neighbour) visit(other, normal);
+  for (int i = 0; i < 3; ++i) {
+    if (visit(tile.neighbour[i], normal)) continue;
+    const TriMesh& mesh = cycles_.mesh();
+    const Index h = 3 * face + i;
+    add_cycle(mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)], -cycles_.half_bend(h),
+              sum_);
+  }
 }
 
 /// Adds a face that is small against the ball, so that its rim is a flat arc there.
@@ -177,7 +187,7 @@ void BallWalker::add_small(Index face, const Vec3& centre, double radius, const 
     inside[i] = p[i].squaredNorm() <= radius * radius;
   }
   const int count = int(inside[0]) + int(inside[1]) + int(inside[2]);
-  if (count == 3) return add_whole(tile, normal);
+  if (count == 3) return add_whole(face, normal);
   for (int i = 0; i < 3; ++i) {  // the rim may cut such an edge twice
     const int j = (i + 1) % 3;
     if (!inside[i] && !inside[j] && squared_distance_to_segment(p[i], p[j]) < radius * radius) {
@@ -190,7 +200,7 @@ void BallWalker::add_small(Index face, const Vec3& centre, double radius, const 
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
     if (!inside[i] && !inside[j]) continue;
-    visit(tile.neighbour[i], normal);
+    const bool goes_on = visit(tile.neighbour[i], normal);
     double share = 1;
     if (inside[i] != inside[j]) {
       const Vec3& from = inside[i] ? p[i] : p[j];
@@ -200,7 +210,7 @@ void BallWalker::add_small(Index face, const Vec3& centre, double radius, const 
       const Vec3 crossing = from + share * way;
       chord += inside[i] ? crossing : Vec3(-crossing);
     }
-    add_cycle(p[j] - p[i], share * cycles_.half_bend(3 * face + i), sum_);
+    if (goes_on) add_cycle(p[j] - p[i], share * cycles_.half_bend(3 * face + i), sum_);
   }
   // Between the chord and the arc: the first term of its series, c^3 / (12 r).
   const double length2 = chord.squaredNorm();
@@ -225,7 +235,7 @@ void BallWalker::add_large(Index face, const Vec3& centre, double radius, const 
     if (!inside[i] && !inside[j] && squared_distance_to_segment(p[i], p[j]) >= radius * radius) {
       continue;
     }
-    visit(tile.neighbour[i], normal);
+    if (!visit(tile.neighbour[i], normal)) continue;
     const Vec3 edge = p[j] - p[i];
     double weight = cycles_.half_bend(3 * face + i);
     if (!inside[i] || !inside[j]) weight *= clipped_length(p[i], p[j], radius) / edge.norm();
@@ -249,7 +259,7 @@ std::array<double, 6> BallWalker::tensor(Index h, const Vec3& normal, double rad
     const Vec3 middle(tile.centre[0], tile.centre[1], tile.centre[2]);
     const double room = radius - tile.radius;
     if (room > 0 && (middle - centre).squaredNorm() <= room * room) {
-      add_whole(tile, normal);
+      add_whole(front_[at], normal);
     } else if (tile.radius <= kSmallFace * radius) {
       add_small(front_[at], centre, radius, normal);
     } else {

@@ -57,8 +57,8 @@ class BallWalker {
   std::array<double, 6> tensor(Index h, const Vec3& normal, double radius);
 
  private:
-  void visit(Index face, const Vec3& normal);
-  void add_whole(const FaceCycles::Tile& tile, const Vec3& normal);
+  bool visit(Index face, const Vec3& normal);
+  void add_whole(Index face, const Vec3& normal);
   void add_large(Index face, const Vec3& centre, double radius, const Vec3& normal);
   void add_small(Index face, const Vec3& centre, double radius, const Vec3& normal);
 

@@ -1,0 +1,35 @@
+#include "stages/tensor/wedge_tensors.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "tests/support/mesh_support.h"
+
+namespace strake {
+namespace {
+
+/// A flat face and one that is folded onto it over the edge from vertex 1 to 2; the vertex 0 is in
+/// the first face only.
+TriMesh folded_pair() {
+  PolyMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, 0.02}};
+  mesh.add_face(std::array<Index, 3>{0, 1, 2});
+  mesh.add_face(std::array<Index, 3>{1, 3, 2});
+  return support::plain_tri_mesh(mesh);
+}
+
+// A ball goes no farther than to where the surface folds over, and the fold bends nothing in it,
+// whether the ball holds the face whole, cuts a small one, or a large one.
+TEST(WedgeTensors, DoNotSeeWhatFoldsOver) {
+  const TriMesh mesh = folded_pair();
+  const Index wedge = mesh.wedge_of(0);
+  for (const double radius : {0.3, 0.6, 0.9, 1.2, 5.0}) {
+    SilentObserver observer;
+    const WedgeTensors tensors = estimate_wedge_tensors(mesh, mesh.wedge_count(), radius, observer);
+    for (const auto entry : tensors.tensor[wedge]) EXPECT_NEAR(entry, 0, 1e-6) << radius;
+  }
+}
+
+}  // namespace
+}  // namespace strake
