@@ -163,6 +163,7 @@ bool BallWalker::visit(Index face, const Vec3& normal) {
   return true;
 }
 
+/// The face's sum holds the bends towards all its neighbours: those that fold over are taken out.
 void BallWalker::add_whole(Index face, const Vec3& normal) {
   const FaceCycles::Tile& tile = cycles_.tile(face);
   area_ += tile.area;
