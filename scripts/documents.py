@@ -7,6 +7,8 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
+# What stands behind this mark in the tutorial is not run by scripts/run_tutorial.
+NOT_RUN = "<!-- not run -->"
 
 
 def script_name():

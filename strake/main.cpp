@@ -1,7 +1,9 @@
 #include <CLI/App.hpp>
+#include <string>
 
 #include "common/stage/build_facts.h"
 #include "strake/commands.h"
+#include "strake/report/viewer.h"
 
 namespace {
 
@@ -14,12 +16,19 @@ constexpr const char* kExamples =
   source <(strake completion bash)
   strake man | man -l -)";
 
+/// Facts of the build, among them whether `strake report` works.
+std::string version() {
+  const bool has_page = !strake::report::viewer_page().empty();
+  return strake::version_text("strake") + (has_page ? "\nwith" : "\nwithout") +
+         " the page of reports";
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   return strake::run_guarded("strake", [&] {
     CLI::App app("Anisotropic quad-dominant remeshing along lines of curvature.", "strake");
-    app.set_version_flag("--version", strake::version_text("strake"));
+    app.set_version_flag("--version", version());
     app.require_subcommand(1);
     strake::Action chosen;
     strake::add_remesh_command(app, chosen);

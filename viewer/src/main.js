@@ -107,11 +107,16 @@ class App {
     this.labels.classList.toggle("two", panes.length === 2);
   }
 
+  /** The text that the address is to have. */
+  get link() {
+    return toHash(this.view);
+  }
+
   /** The address is replaced at most a few times a second: browsers refuse more. */
   noteAddress() {
     clearTimeout(this.addressTimer);
     this.addressTimer = setTimeout(() => {
-      this.address = toHash(this.view);
+      this.address = this.link;
       history.replaceState(null, "", this.address);
     }, 150);
   }

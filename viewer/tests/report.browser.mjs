@@ -134,7 +134,7 @@ async function checkFigures(page, report) {
 async function checkLink(browser, report) {
   const camera = (page) => page.evaluate(() => window.strakeReport.stage.camera.position.toArray());
   const link = async (page) => {
-    await page.waitForTimeout(400);
+    await page.waitForFunction(() => location.hash === window.strakeReport.link);
     return page.evaluate(() => location.hash);
   };
   const page = await open(browser, report, "#a=0,input,k_max,sides,minimum+ends&section=y,0.4");
