@@ -17,9 +17,6 @@ set(targets strake_all)
 foreach(name ${STRAKE_EXPORTED})
   set_target_properties(strake_${name} PROPERTIES EXPORT_NAME ${name})
   target_compile_features(strake_${name} PUBLIC cxx_std_20)
-  # They may end up in a shared library: code for any address, with calls within a file still inlined.
-  set_target_properties(strake_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
-  target_compile_options(strake_${name} PRIVATE -fno-semantic-interposition)
   list(APPEND targets strake_${name})
 endforeach()
 install(TARGETS ${targets} EXPORT strake-targets

@@ -4,6 +4,8 @@ add_library(strake_flags INTERFACE)
 target_include_directories(strake_flags INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(strake_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
                        -Wno-sign-conversion -Werror
+                       # The same roundings on processors that multiply and add at once.
+                       -ffp-contract=off
                        # GCC 12 sees overlaps in string concatenation that are not there (PR 105651).
                        $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 
@@ -14,6 +16,20 @@ if(STRAKE_SANITIZE)
   # With sanitizers GCC takes values in library headers for uninitialised that are not.
   add_compile_options($<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   add_link_options(-fsanitize=${STRAKE_SANITIZE})
+endif()
+
+# What makes an overrun end the program instead of being of use to someone.
+include(CheckPIESupported)
+check_pie_supported()
+# Code for any address, of which libraries can be made, too; calls within a file are still inlined.
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+target_compile_options(strake_flags INTERFACE -fno-semantic-interposition)
+if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT STRAKE_SANITIZE)
+  add_compile_options(-U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=3 -fstack-protector-strong
+                      -fstack-clash-protection)
+  add_link_options(-Wl,-z,relro,-z,now,-z,noexecstack)
+else()
+  add_compile_definitions(_GLIBCXX_ASSERTIONS)
 endif()
 
 include(GNUInstallDirs)

@@ -11,6 +11,7 @@ ELSEWHERE = {
     "scripts/run_examples": ("tests/CMakeLists.txt", "scripts/run_examples"),
     "cmake --preset release && cmake --build build": ("scripts/test", 'cmake --preset "$preset"'),
     "cmake --build build": ("scripts/test", 'cmake --build --preset "$preset"'),
+    "scripts/check_cppcheck": ("scripts/test", "scripts/check_cppcheck"),
     "ctest --preset release -R Trace": ("scripts/test", 'ctest --preset "$preset"'),
     "ctest --preset release -L slurm": ("scripts/test", 'ctest --preset "$preset"'),
     "ctest -L browser": ("scripts/test", 'ctest --preset "$preset"'),
@@ -39,6 +40,8 @@ BY_HAND = {
     "STRAKE_MODELS=models tests/bench/speed/speed.py [MESH...] --docs": _FIGURES,
     "cmake --build build --target strake strake-render strake-bench-decimate": "for the benches above",
     "cmake --build build --target strake-bench-decimate": "for the benches above",
+    "scripts/compare_builds build/bin build-clang/bin MESH...": "takes another build of everything, with clang",
+    "scripts/mutate": "builds a part of everything anew for each fault, for half an hour",
     "scripts/fuzz 60": "builds everything anew with clang and looks for faults as long as it is let",
 }
 

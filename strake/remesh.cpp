@@ -10,6 +10,7 @@
 #include "common/artifact/artifact.h"
 #include "common/artifact/text_file.h"
 #include "common/core/error.h"
+#include "common/stage/repro.h"
 #include "strake/chain/chain.h"
 #include "strake/commands.h"
 #include "strake/summary.h"
@@ -50,8 +51,9 @@ struct RemeshCommand {
   void check() const;
   [[nodiscard]] std::vector<SideFile> side_files() const;
   /// How one would say that the result was made in one go.
-  [[nodiscard]] Provenance provenance(const std::string& input_digest);
+  [[nodiscard]] Provenance provenance();
   void run();
+  void make_output();
 };
 
 /// Keeps each output in the folder as the file "port.hdf", each record as "stage.json", and the
@@ -115,7 +117,7 @@ std::vector<SideFile> RemeshCommand::side_files() const {
   return given;
 }
 
-Provenance RemeshCommand::provenance(const std::string& input_digest) {
+Provenance RemeshCommand::provenance() {
   Provenance whole;
   whole.stage = "remesh";
   for (const Stage* stage : chain.stages()) {
@@ -126,7 +128,7 @@ Provenance RemeshCommand::provenance(const std::string& input_digest) {
   }
   const Option rounds = chain.declare().front();
   whole.options.push_back({rounds.name, rounds.value(), !chain.feedback_rounds});
-  whole.inputs = {{"input", input_digest}};
+  whole.inputs = {{"input", content_digest(input)}};
   for (const SideFile& file : side_files()) {
     whole.inputs.push_back({file.port, content_digest(file.path)});
   }
@@ -135,13 +137,18 @@ Provenance RemeshCommand::provenance(const std::string& input_digest) {
 
 void RemeshCommand::run() {
   check();
+  Repro repro{shell.repro, "strake remesh", {input}, [this] { return provenance(); }};
+  for (const SideFile& file : side_files()) repro.inputs.emplace_back(file.path);
+  with_repro(repro, [this] { make_output(); });
+}
+
+void RemeshCommand::make_output() {
   ConsoleObserver console = shell.console();
   console.begin("strake");
   console.report("reading " + input, 0);
   Session session(console);
   if (!keep.empty()) session.keep_with(keeper(keep));
-  const std::string digest = content_digest(input);
-  session.provide("input", load_value(PortKind::polygons, input), input, digest);
+  session.provide("input", load_value(PortKind::polygons, input), input, content_digest(input));
   for (const SideFile& file : side_files()) {
     session.provide(file.port, load_value(file.kind, file.path), file.path,
                     content_digest(file.path));
@@ -149,7 +156,7 @@ void RemeshCommand::run() {
   const std::string port = chain.run(session);
   const Report* measures = no_evaluate ? nullptr : &chain.measure(session, port);
   const QuadMesh& quads = session.get<QuadMesh>(port);
-  save_value(output, quads, nullptr, provenance(digest));
+  save_value(output, quads, nullptr, provenance());
   if (!shell.report_path.empty()) write_text(shell.report_path, records_json(session.records()));
   if (shell.verbose) {
     for (const StageRecord& record : session.records()) {
@@ -169,6 +176,7 @@ void add_remesh_command(CLI::App& app, Action& chosen) {
   remesh->add_to(*command);
   command->callback([remesh, &chosen] {
     chosen = [remesh] {
+      end_soon_after_interrupts("strake");
       run_with_threads(remesh->shell.threads, [&] { remesh->run(); });
       return 0;
     };

@@ -10,6 +10,8 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <mutex>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +22,18 @@ namespace strake {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Files that are neither committed nor removed; what is done to any of them is done under the
+/// lock.
+struct Pending {
+  std::mutex lock;
+  std::set<fs::path> files;
+};
+
+Pending& pending_files() {
+  static Pending pending;
+  return pending;
+}
 
 [[noreturn]] void fail(const char* action, const fs::path& path, int error) {
   throw InputError(fmt::format("cannot {} '{}': {}", action, path.string(), std::strerror(error)));
@@ -82,6 +96,7 @@ fs::path folder_of(const fs::path& target) {
 AtomicFile::AtomicFile(fs::path target) : target_(resolve_target(std::move(target))) {
   static std::atomic<unsigned> counter{0};
   const std::string name = target_.filename().string();
+  const std::lock_guard guard(pending_files().lock);
   // A name left behind by a killed process of the same number is skipped.
   for (int attempt = 0; attempt < 1000; ++attempt) {
     temporary_ = folder_of(target_) / fmt::format(".{}.{}-{}.tmp", name, ::getpid(), counter++);
@@ -90,6 +105,7 @@ AtomicFile::AtomicFile(fs::path target) : target_(resolve_target(std::move(targe
     if (descriptor >= 0) {
       ::close(descriptor);
       pending_ = true;
+      pending_files().files.insert(temporary_);
       return;
     }
     if (errno != EEXIST) fail("write", target_, errno);
@@ -98,20 +114,33 @@ AtomicFile::AtomicFile(fs::path target) : target_(resolve_target(std::move(targe
 }
 
 AtomicFile::~AtomicFile() {
+  if (!pending_) return;
+  const std::lock_guard guard(pending_files().lock);
   std::error_code ignored;
-  if (pending_) fs::remove(temporary_, ignored);
+  fs::remove(temporary_, ignored);
+  pending_files().files.erase(temporary_);
+}
+
+void AtomicFile::abandon_all() {
+  pending_files().lock.lock();
+  std::error_code ignored;
+  for (const fs::path& file : pending_files().files) fs::remove(file, ignored);
 }
 
 bool AtomicFile::commit(Flush flush) {
-  if (same_bytes(temporary_, target_)) {
+  const bool is_new = !same_bytes(temporary_, target_);
+  if (is_new && flush == Flush::yes) flush_to_disk(temporary_, O_RDWR);
+  {
+    const std::lock_guard guard(pending_files().lock);
     std::error_code ignored;
-    fs::remove(temporary_, ignored);
+    if (!is_new) fs::remove(temporary_, ignored);
+    if (is_new && ::rename(temporary_.c_str(), target_.c_str()) != 0) {
+      fail("replace", target_, errno);
+    }
+    pending_files().files.erase(temporary_);
     pending_ = false;
-    return false;
   }
-  if (flush == Flush::yes) flush_to_disk(temporary_, O_RDWR);
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("replace", target_, errno);
-  pending_ = false;
+  if (!is_new) return false;
   if (flush == Flush::yes) flush_to_disk(folder_of(target_), O_RDONLY | O_DIRECTORY);
   return true;
 }

@@ -31,6 +31,10 @@ class AtomicFile {
   /// \throw InputError naming path and reason; the temporary file goes with this object
   bool commit(Flush flush = Flush::yes);
 
+  /// Removes what all objects of this kind have written and not committed, and keeps them from
+  /// going on: whoever tries waits for ever. For a program that ends at once, from any thread.
+  static void abandon_all();
+
  private:
   std::filesystem::path target_;
   std::filesystem::path temporary_;

@@ -34,8 +34,12 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
-/// Keeps HDF5 from printing its error stack: what went wrong goes into the exception instead.
-void silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+/// Keeps HDF5 from printing its error stack, as what went wrong goes into the exception instead,
+/// and from loading code that a file names.
+void set_up() {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  H5PLset_loading_state(0);
+}
 
 /// The innermost message of HDF5's error stack, which names the cause.
 std::string innermost_reason() {
@@ -107,8 +111,38 @@ Handle text_type(std::size_t length) {
   return type;
 }
 
-Handle open_dataset(std::int64_t file, const std::string& name) {
-  return {H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose};
+/// Whether the object lies in the file itself: no link on the way leads to a name or another file.
+bool is_inside(std::int64_t place, const std::string& name) {
+  for (std::size_t end = 0; end != std::string::npos;) {
+    end = name.find('/', end + 1);
+    H5L_info_t link;
+    if (H5Lget_info(place, name.substr(0, end).c_str(), &link, H5P_DEFAULT) < 0) return false;
+    if (link.type != H5L_TYPE_HARD) return false;
+  }
+  return true;
+}
+
+Handle open_dataset(std::int64_t place, const std::string& name) {
+  const bool inside = is_inside(place, name);
+  return {inside ? H5Dopen2(place, name.c_str(), H5P_DEFAULT) : H5I_INVALID_HID, H5Dclose};
+}
+
+/// Whether the dataset's numbers lie in the file as they are, at most with checksums.
+bool is_stored_plainly(hid_t dataset) {
+  const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
+  if (!creation.valid()) return false;
+  const H5D_layout_t layout = H5Pget_layout(creation.id());
+  if (layout != H5D_COMPACT && layout != H5D_CONTIGUOUS && layout != H5D_CHUNKED) return false;
+  if (H5Pget_external_count(creation.id()) != 0) return false;
+  const int filters = H5Pget_nfilters(creation.id());
+  for (int i = 0; i < filters; ++i) {
+    unsigned flags = 0;
+    std::size_t values = 0;
+    const H5Z_filter_t filter = H5Pget_filter2(creation.id(), static_cast<unsigned>(i), &flags,
+                                               &values, nullptr, 0, nullptr, nullptr);
+    if (filter != H5Z_FILTER_FLETCHER32) return false;
+  }
+  return filters >= 0;
 }
 
 }  // namespace
@@ -127,7 +161,7 @@ void File::fail(const std::string& object, const std::string& what) const {
 
 Writer::Writer(const std::filesystem::path& path, std::filesystem::path shown)
     : File(std::move(shown)) {
-  silence();
+  set_up();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   // Version 1.10 structures carry checksums of their own; times would make equal files differ.
@@ -214,7 +248,7 @@ void Writer::finish() {
 }
 
 Reader::Reader(const std::filesystem::path& path) : File(path) {
-  silence();
+  set_up();
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) {
@@ -223,14 +257,13 @@ Reader::Reader(const std::filesystem::path& path) : File(path) {
   if (!std::filesystem::is_regular_file(status)) {
     throw InputError(path.string() + ": is not a regular file");
   }
+  bytes_ = std::filesystem::file_size(path, error);
   id_ = H5Fopen(shown_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (id_ < 0)
     fail("", "is not an artifact of strake, or is damaged; strake-import makes one of a mesh file");
 }
 
-bool Reader::has(const std::string& name) const {
-  return H5Lexists(id_, name.c_str(), H5P_DEFAULT) > 0;
-}
+bool Reader::has(const std::string& name) const { return is_inside(id_, name); }
 
 bool Reader::has_attribute(const std::string& name) const {
   return H5Aexists(id_, name.c_str()) > 0;
@@ -245,6 +278,7 @@ std::string Reader::text_attribute(const std::string& name) const {
       H5Tis_variable_str(type.id()) != 0 || H5Sget_simple_extent_npoints(space.id()) != 1) {
     refuse(name, "is not a text");
   }
+  if (H5Tget_size(type.id()) > bytes_) refuse(name, "claims more than the file holds");
   std::string text(H5Tget_size(type.id()), '\0');
   const Handle memory = text_type(text.size());
   if (H5Aread(attribute.id(), memory.id(), text.data()) < 0) fail(name, "cannot be read");
@@ -267,6 +301,7 @@ std::int64_t Reader::integer_attribute(const std::string& name) const {
 }
 
 std::vector<DatasetInfo> Reader::list(const std::string& group) const {
+  if (!is_inside(id_, group)) refuse(group, "is missing or elsewhere");
   const Handle opened(H5Gopen2(id_, group.c_str(), H5P_DEFAULT), H5Gclose);
   H5G_info_t info;
   if (!opened.valid() || H5Gget_info(opened.id(), &info) < 0) fail(group, "cannot be read");
@@ -298,7 +333,7 @@ std::vector<DatasetInfo> Reader::list(const std::string& group) const {
 
 Shape Reader::checked_shape(const std::string& name, Scalar scalar, bool is_table) const {
   const Handle dataset = open_dataset(id_, name);
-  if (!dataset.valid()) fail(name, "is missing or damaged");
+  if (!dataset.valid()) fail(name, "is missing, damaged or in another file");
   const Handle type(H5Dget_type(dataset.id()), H5Tclose);
   if (H5Tequal(type.id(), file_type(scalar)) <= 0) refuse(name, "has a wrong number type");
   const auto [rank, sizes] = dimensions(dataset.id());
@@ -311,6 +346,10 @@ Shape Reader::checked_shape(const std::string& name, Scalar scalar, bool is_tabl
   // Chunks that were never written read as zeros without any error, so their absence is one.
   const auto wanted = static_cast<hsize_t>(shape.rows * shape.columns * size_of(scalar));
   if (H5Dget_storage_size(dataset.id()) < wanted) refuse(name, "is incomplete");
+  if (wanted > bytes_) refuse(name, "claims more than the file holds");
+  if (!is_stored_plainly(dataset.id())) {
+    refuse(name, "is compressed, filtered or in another file, which is not read");
+  }
   return shape;
 }
 

@@ -118,7 +118,8 @@ class Writer : public File {
   void write(const std::string& name, const void* data, Scalar scalar, const Shape& shape);
 };
 
-/// Reads a file and trusts nothing in it.
+/// Reads a file and trusts nothing in it: links to other files, filters but checksums, plugins and
+/// sizes that the file cannot hold are refused.
 class Reader : public File {
  public:
   /// \throw InputError where the file is missing, no HDF5 file, or damaged
@@ -171,6 +172,8 @@ class Reader : public File {
   /// Reads a block of the given shape that begins at row `first` of the dataset.
   void read(const std::string& name, void* data, Scalar scalar, std::int64_t first,
             const Shape& block) const;
+
+  std::uintmax_t bytes_ = 0;  ///< of the file
 };
 
 }  // namespace strake::hdf5

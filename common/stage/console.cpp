@@ -1,15 +1,22 @@
 #include "common/stage/console.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <system_error>
+#include <thread>
 #include <utility>
 
+#include "common/artifact/atomic_file.h"
 #include "common/core/error.h"
 #include "common/stage/pace.h"
 
@@ -18,7 +25,29 @@ namespace {
 
 volatile sig_atomic_t interrupt_arrived = 0;
 
-void on_interrupt(int /*signal*/) { interrupt_arrived = 1; }
+/// Where handlers of signals tell a thread that waits for one; -1: there is none.
+volatile sig_atomic_t interrupt_pipe = -1;
+
+void on_interrupt(int /*signal*/) {
+  interrupt_arrived = 1;
+  if (interrupt_pipe < 0) return;
+  const int error = errno;
+  [[maybe_unused]] const ssize_t written = ::write(interrupt_pipe, "", 1);
+  errno = error;
+}
+
+constexpr std::chrono::milliseconds kPatience{500};
+
+[[noreturn]] void end_after_interrupt(int pipe, const std::string& program) {
+  char byte = 0;
+  while (::read(pipe, &byte, 1) != 1) {
+  }
+  std::this_thread::sleep_for(kPatience);
+  AtomicFile::abandon_all();
+  const Interrupted reason;
+  fmt::print(stderr, "{}\n", highlighted(program + ": error: " + reason.what()));
+  ::_exit(static_cast<int>(reason.code()));
+}
 
 void print_event(const nlohmann::ordered_json& event) {
   constexpr bool kAsciiOnly = true;
@@ -35,6 +64,22 @@ void catch_interrupts() {
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  // A file that may not grow any more is an error of whoever writes it, as on a full disk.
+  struct sigaction ignore = {};
+  ignore.sa_handler = SIG_IGN;
+  sigaction(SIGXFSZ, &ignore, nullptr);
+}
+
+void end_soon_after_interrupts(const std::string& program) {
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) return;  // it ends when the algorithm looks
+  try {
+    std::thread(end_after_interrupt, ends[0], program).detach();
+    interrupt_pipe = ends[1];
+  } catch (const std::system_error&) {  // no room for its stack: likewise
+    ::close(ends[0]);
+    ::close(ends[1]);
+  }
 }
 
 bool interrupt_requested() { return interrupt_arrived != 0; }

@@ -14,8 +14,14 @@ enum class Verbosity { quiet, normal, verbose };
 /// How events are written to stderr: for people, or one JSON object per line for programs.
 enum class LogFormat { text, json };
 
-/// From now on SIGINT and SIGTERM ask the running stage to stop; a second one ends the program.
+/// From now on SIGINT and SIGTERM ask the running stage to stop; a second one ends the program. A
+/// limit of file sizes is an error like a full disk, and ends nothing.
 void catch_interrupts();
+
+/// From now on the process is ended half a second after such a signal, if it has not ended by then:
+/// algorithms look for signals only where they have a moment. Files that are not written whole are
+/// removed. For programs that have started no other processes.
+void end_soon_after_interrupts(const std::string& program);
 
 /// Whether one of these signals has arrived.
 bool interrupt_requested();

@@ -7,8 +7,10 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <map>
@@ -20,11 +22,15 @@
 #include "common/core/suggest.h"
 #include "common/stage/build_facts.h"
 #include "common/stage/command_tree.h"
+#include "common/stage/repro.h"
 
 namespace strake {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kOutOfMemory =
+    "out of memory; use a smaller mesh or a machine with more memory";
 
 bool is_flag(const Option& option) { return std::holds_alternative<bool*>(option.target); }
 
@@ -112,11 +118,10 @@ Inputs load_inputs(const Stage& stage, const Paths& paths, Provenance& provenanc
   return inputs;
 }
 
-void run_program(const Stage& stage, const Paths& paths, const ShellOptions& shell) {
-  check_paths(stage, paths);
+void make_output(const Stage& stage, const Paths& paths, const ShellOptions& shell,
+                 StageRecord& record) {
   ConsoleObserver console = shell.console();
   console.begin(stage.name);
-  StageRecord record{provenance_of(stage), {}};
   const Inputs inputs = load_inputs(stage, paths, record.provenance, console);
   StageResult result = run_stage(stage, inputs, console);
   record.report = std::move(result.report);
@@ -131,6 +136,17 @@ void run_program(const Stage& stage, const Paths& paths, const ShellOptions& she
   }
   if (!shell.report_path.empty()) write_text(shell.report_path, record_json(record));
   if (shell.verbose && result.output) console.say(report_text(record.report));
+}
+
+void run_program(const Stage& stage, const Paths& paths, const ShellOptions& shell) {
+  check_paths(stage, paths);
+  StageRecord record{provenance_of(stage), {}};
+  Repro repro{shell.repro, "strake-" + stage.name, {}, [&] { return record.provenance; }};
+  for (const Port& port : stage.inputs) {
+    const std::vector<std::string>& files = paths.inputs.at(port.name);
+    repro.inputs.insert(repro.inputs.end(), files.begin(), files.end());
+  }
+  with_repro(repro, [&] { make_output(stage, paths, shell, record); });
 }
 
 /// The command of the command line, or the program itself where it names none.
@@ -170,6 +186,12 @@ std::string example(const Stage& stage) {
   return line + " -o " + file(stage.output);
 }
 
+/// Whether threads could not be made, as oneTBB says it: mostly for want of memory for their
+/// stacks.
+bool lacks_threads(const std::exception& error) {
+  return std::string_view(error.what()).find(std::strerror(EAGAIN)) != std::string_view::npos;
+}
+
 }  // namespace
 
 void add_options(CLI::App& target, const OptionList& options) {
@@ -205,6 +227,11 @@ void ShellOptions::add_to(CLI::App& app) {
       ->excludes(quiet_flag);
   group->add_option("--report", report_path, "Write counts, measures and warnings as JSON.")
       ->type_name("FILE.json");
+  group
+      ->add_option("--repro", repro,
+                   "After a failure that is no fault of the input: keep inputs, options and "
+                   "versions in this folder, for a report.")
+      ->type_name("FOLDER");
 }
 
 ConsoleObserver ShellOptions::console() const {
@@ -225,9 +252,9 @@ int run_guarded(const std::string& program, const std::function<int()>& body) {
   } catch (const Error& error) {
     return fail(error.what(), error.code());
   } catch (const std::bad_alloc&) {
-    return fail("out of memory; use a smaller mesh or a machine with more memory",
-                ExitCode::internal);
+    return fail(kOutOfMemory, ExitCode::internal);
   } catch (const std::exception& error) {
+    if (lacks_threads(error)) return fail(kOutOfMemory, ExitCode::internal);
     return fail(std::string("internal error, please report it: ") + error.what(),
                 ExitCode::internal);
   }
@@ -272,6 +299,7 @@ int stage_main(const Stage& stage, int argc, char** argv) {
     add_options(app, stage.options);
     shell.add_to(app);
     if (const auto exit_code = parse_command_line(app, argc, argv)) return *exit_code;
+    end_soon_after_interrupts(program);
     run_with_threads(shell.threads, [&] { run_program(stage, paths, shell); });
     return 0;
   });

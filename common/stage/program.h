@@ -27,8 +27,9 @@ struct ShellOptions {
   bool verbose = false;
   bool log_json = false;
   std::string report_path;
+  std::string repro;  ///< folder for what a failure takes to repeat; "": nothing is kept
 
-  /// Adds --threads, --quiet, --verbose, --log-json and --report.
+  /// Adds --threads, --quiet, --verbose, --log-json, --report and --repro.
   void add_to(CLI::App& app);
   /// What the running work reports to.
   [[nodiscard]] ConsoleObserver console() const;

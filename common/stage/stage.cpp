@@ -1,6 +1,7 @@
 #include "common/stage/stage.h"
 
 #include "common/core/error.h"
+#include "common/stage/invariants.h"
 
 namespace strake {
 
@@ -23,7 +24,13 @@ StageResult run_stage(const Stage& stage, const Inputs& inputs, Observer& observ
                     *input.value, input.origin);
     }
   }
-  return stage.run(inputs, observer);
+  StageResult result = stage.run(inputs, observer);
+  if (!result.output) return result;
+  if (const std::string fault = broken_invariant(*result.output); !fault.empty()) {
+    throw Error(ExitCode::internal, "internal error, please report it: the result of stage " +
+                                        stage.name + " is unsound: " + fault);
+  }
+  return result;
 }
 
 Provenance provenance_of(const Stage& stage) {

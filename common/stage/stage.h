@@ -100,8 +100,8 @@ Stage with_options(Stage stage, Run run) {
   return stage;
 }
 
-/// Checks that the inputs belong together, then runs the stage.
-/// \throw PreconditionError, and what the stage throws
+/// Checks that the inputs belong together, runs the stage, and checks what its result promises.
+/// \throw PreconditionError, Error(internal) where the result is unsound, and what the stage throws
 StageResult run_stage(const Stage& stage, const Inputs& inputs, Observer& observer);
 
 /// The stage, its version and its resolved options; inputs are to be filled in by the caller.

@@ -8,6 +8,7 @@
 #include "common/artifact/meshfile/guide_reader.h"
 #include "common/artifact/meshfile/mesh_writer.h"
 #include "common/core/error.h"
+#include "common/stage/invariants.h"
 #include "common/stage/overloaded.h"
 
 namespace strake {
@@ -37,9 +38,7 @@ Polygons load_polygons(const fs::path& path) {
   return polygons;
 }
 
-}  // namespace
-
-Value load_value(PortKind kind, const fs::path& path) {
+Value read_value(PortKind kind, const fs::path& path) {
   switch (kind) {
     case PortKind::polygons:
       return load_polygons(path);
@@ -69,6 +68,16 @@ Value load_value(PortKind kind, const fs::path& path) {
       break;
   }
   throw Error(ExitCode::internal, "reports are not read");
+}
+
+}  // namespace
+
+Value load_value(PortKind kind, const fs::path& path) {
+  Value value = read_value(kind, path);
+  if (const std::string fault = broken_invariant(value); !fault.empty()) {
+    throw InputError(path.string() + ": " + fault + "; the file is damaged, make it again");
+  }
+  return value;
 }
 
 void save_value(const fs::path& path, const Value& value, const TriMesh* mesh,

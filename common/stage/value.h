@@ -53,7 +53,7 @@ enum class PortKind {
   report
 };
 
-/// Reads a value from a file of the right kind.
+/// Reads a value from a file of the right kind, and checks what it promises.
 /// \throw InputError where the file is missing, damaged or of another kind
 Value load_value(PortKind kind, const std::filesystem::path& path);
 

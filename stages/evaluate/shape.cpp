@@ -217,7 +217,7 @@ void report_valence(const PolyMesh& mesh, const PolyEdges& edges, Report& report
     report.set("valence.share_" + std::to_string(k), share(histogram[k], inside));
   }
   report.set("valence.share_" + std::to_string(kLargestValence) + "_or_more",
-             share(histogram[kLargestValence], inside));
+             share(histogram.back(), inside));
 }
 
 }  // namespace strake::evaluation

@@ -31,8 +31,8 @@ struct Line {
 /// The feature and boundary lines of a mesh.
 class Lines {
  public:
-  explicit Lines(const TriMesh& mesh) : mesh_(mesh), ends_(mesh.positions.size(), {kNone, kNone}) {
-    degree_ = barrier_degrees(mesh);
+  explicit Lines(const TriMesh& mesh)
+      : mesh_(mesh), degree_(barrier_degrees(mesh)), ends_(mesh.positions.size(), {kNone, kNone}) {
     for (Index h = 0; h < mesh.halfedge_count(); ++h) {
       if (!mesh.is_barrier(h) || mesh.edge_of(h) != h) continue;
       add_end(mesh.from(h), mesh.to(h));
@@ -91,8 +91,8 @@ class Lines {
 /// Measures how sharply a line turns, over a distance that looks past ragged edges.
 class TurnMeter {
  public:
-  TurnMeter(const TriMesh& mesh, const Line& line) : mesh_(mesh), line_(line) {
-    count_ = static_cast<Index>(line.vertices.size());
+  TurnMeter(const TriMesh& mesh, const Line& line)
+      : mesh_(mesh), line_(line), count_(static_cast<Index>(line.vertices.size())) {
     for (Index i = 0; i + 1 < count_ + (line.is_closed ? 1 : 0); ++i) {
       length_ += (at(i + 1) - at(i)).norm();
     }
@@ -161,7 +161,8 @@ class TurnMeter {
       left -= (at(i + n * step) - at(i + (n - 1) * step)).norm();
       if (left < 0) return true;
       const Index j = line_.is_closed ? wrap(i + n * step) : i + n * step;
-      if (turns[j] > turns[i] || (turns[j] == turns[i] && j < i)) return false;
+      const bool is_before = j < i;
+      if (turns[j] > turns[i] || (turns[j] == turns[i] && is_before)) return false;
     }
     return true;
   }

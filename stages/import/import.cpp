@@ -23,6 +23,7 @@
 namespace strake {
 namespace {
 
+using import::FeatureRules;
 using import::Repairs;
 using import::Soup;
 
@@ -140,12 +141,12 @@ void report_features(const import::FeatureCounts& counts, Report& report) {
   report.set("features.corners", counts.corners);
 }
 
-import::FeatureRules feature_rules(const ImportOptions& options){
-    const auto wants = [&](const char* kind){return options.attribute_features == "all" ||
-                                                    options.attribute_features == kind;
-};  // namespace
-return {options.feature_angle_deg, wants("labels"), wants("seams")};
-}  // namespace strake
+FeatureRules feature_rules(const ImportOptions& options) {
+  const auto wants = [&](const char* kind) {
+    return options.attribute_features == "all" || options.attribute_features == kind;
+  };
+  return {options.feature_angle_deg, wants("labels"), wants("seams")};
+}
 
 /// Seams of an atlas of many small charts would leave no room for anything but features.
 void warn_of_many_seams(const TriMesh& mesh, const import::FeatureCounts& counts, Report& report) {

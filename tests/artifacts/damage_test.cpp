@@ -169,6 +169,58 @@ TEST_F(Damage, IndicesOutOfRangeAndNumbersThatAreNoneAreRefused) {
   refuses(ArtifactKind::size, "/size/across", 3, H5T_NATIVE_DOUBLE, -1.0);
 }
 
+/// Whoever follows what a file names reads other files, or runs code of others.
+TEST_F(Damage, WhatLiesElsewhereOrIsFilteredIsRefused) {
+  const Values values = make_values();
+  const char* name = "/size/along";
+  const hsize_t count = values.size.along.size();
+  const auto refuses = [&](const std::function<void(hid_t)>& change) {
+    write(file("a.hdf"), ArtifactKind::size, values, make_provenance());
+    edit([&](hid_t opened) {
+      ASSERT_GE(H5Lmove(opened, name, opened, "/moved", H5P_DEFAULT, H5P_DEFAULT), 0);
+      change(opened);
+    });
+    EXPECT_NE(refusal(ArtifactKind::size, values).find(name), std::string::npos);
+  };
+  const auto refuses_dataset = [&](hid_t type, const std::function<void(hid_t, hid_t)>& set) {
+    refuses([&](hid_t opened) {
+      const hid_t space = H5Screate_simple(1, &count, nullptr);
+      const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
+      set(creation, space);
+      const hid_t dataset =
+          H5Dcreate2(opened, name, type, space, H5P_DEFAULT, creation, H5P_DEFAULT);
+      ASSERT_GE(dataset, 0);
+      if (type == H5T_IEEE_F64LE) {
+        H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT,
+                 values.size.along.data());
+      }
+      H5Dclose(dataset);
+      H5Pclose(creation);
+      H5Sclose(space);
+    });
+  };
+  write(file("b.hdf"), ArtifactKind::size, values, make_provenance());
+  refuses([&](hid_t opened) {
+    H5Lcreate_external(file("b.hdf").c_str(), name, opened, name, H5P_DEFAULT, H5P_DEFAULT);
+  });
+  refuses([&](hid_t opened) { H5Lcreate_soft("/moved", opened, name, H5P_DEFAULT, H5P_DEFAULT); });
+  refuses_dataset(H5T_IEEE_F64LE, [&](hid_t creation, hid_t) {
+    H5Pset_external(creation, file("c.raw").c_str(), 0, count * sizeof(double));
+  });
+  refuses_dataset(H5T_IEEE_F64LE, [&](hid_t creation, hid_t space) {
+    H5Pset_virtual(creation, space, file("b.hdf").c_str(), name, space);
+  });
+  refuses_dataset(H5T_IEEE_F64LE, [&](hid_t creation, hid_t) {
+    const hsize_t chunk = 2;  // so small that compressing makes it larger
+    H5Pset_chunk(creation, 1, &chunk);
+    H5Pset_deflate(creation, 1);
+  });
+  const hid_t text = H5Tcopy(H5T_C_S1);
+  H5Tset_size(text, H5T_VARIABLE);
+  refuses_dataset(text, [](hid_t, hid_t) {});
+  H5Tclose(text);
+}
+
 TEST_F(Damage, BlocksOfADamagedMeshAreRefused) {
   const Values values = make_values();
   const Index faces = values.mesh.face_count();

@@ -1,8 +1,12 @@
+#include <array>
+
+#include "common/artifact/artifact.h"
 #include "tests/pipeline/run_program.h"
 
 namespace strake::pipeline_test {
 namespace {
 
+constexpr int kInternal = 1;
 constexpr int kUsage = 2;
 constexpr int kBadInput = 3;
 constexpr int kPrecondition = 4;
@@ -58,6 +62,49 @@ TEST_F(Errors, DamagedFiles) {
   flipped[flipped.size() / 2] = static_cast<char>(flipped[flipped.size() / 2] ^ 4);
   put("flipped.hdf", flipped);
   must_fail(kBadInput, "strake-tensor flipped.hdf -o t.hdf", "flipped.hdf");
+}
+
+/// Every index of the file is in range, and yet one vertex has two fans of faces.
+TEST_F(Errors, MeshesThatBreakWhatTheyPromise) {
+  TriMesh bow;
+  bow.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(-1, 0, 0), Vec3(-1, -1, 0)};
+  bow.faces = {{0, 1, 2}, {0, 3, 4}};
+  bow.face_wedges = bow.faces;
+  bow.wedge_vertex = bow.source_vertex = {0, 1, 2, 3, 4};
+  bow.source_face = {0, 1};
+  bow.twin.assign(6, kNone);
+  bow.vertex_out = {0, 1, 2, 4, 5};
+  bow.is_feature.assign(6, 0);
+  bow.is_corner.assign(5, 0);
+  bow.diagonal = 2;
+  bow.id = std::string(32, '0');
+  write_artifact(file("bow.hdf"), bow, {});
+  must_fail(kBadInput, "strake-tensor bow.hdf -o t.hdf", "vertex 0 has several fans");
+}
+
+/// What a stage makes of numbers that overflow is no result, and can be sent to whoever mends that.
+TEST_F(Errors, UnsoundResultsAreNotWrittenAndCanBeRepeated) {
+  must("strake-tensor mesh.hdf -o tensor.hdf -q");
+  TensorField field = read_tensor_field(file("tensor.hdf"));
+  for (auto& tensor : field.tensor) tensor = {1e308, 0, 0, 1e308, 0, 1e308};
+  write_artifact(file("huge.hdf"), field, read_tri_mesh(file("mesh.hdf")), {});
+  const std::string command = "strake-smooth mesh.hdf huge.hdf -o f.hdf --field-stiffness 7";
+  must_fail(kInternal, command, "is unsound");
+  const Outcome kept = run(command + " --repro failed");
+  EXPECT_EQ(kept.exit_code, kInternal);
+  EXPECT_NE(kept.err.find("are in 'failed'"), std::string::npos) << kept.err;
+  EXPECT_EQ(bytes("failed/1-mesh.hdf"), bytes("mesh.hdf"));
+  EXPECT_EQ(bytes("failed/2-huge.hdf"), bytes("huge.hdf"));
+  const std::string repro = bytes("failed/repro.json");
+  for (const char* part :
+       {"is unsound", "strake-smooth 0.", "built by", "2-huge.hdf", "field-stiffness", "\"7\""}) {
+    EXPECT_NE(repro.find(part), std::string::npos) << part << " in\n" << repro;
+  }
+  must_fail(kInternal, "strake-smooth failed/1-mesh.hdf failed/2-huge.hdf -o f.hdf", "is unsound");
+  must_fail(kInternal, command + " --repro mesh.hdf", "nothing was kept");
+  // Nothing is kept of faults of the input.
+  must_fail(kBadInput, "strake-smooth mesh.hdf nowhere.hdf -o f.hdf --repro none", "nowhere.hdf");
+  EXPECT_FALSE(std::filesystem::exists(file("none")));
 }
 
 TEST_F(Errors, InputsThatDoNotBelongTogether) {

@@ -8,6 +8,7 @@ process is left over, and the next run completes.
 import os
 import pathlib
 import random
+import resource
 import shutil
 import signal
 import subprocess
@@ -251,6 +252,69 @@ def memory(programs, folder):
     check(most["10GB"] >= 2, most)
 
 
+def processor_seconds(pid):
+    """That a process has used so far."""
+    fields = pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def stage_commands(folder):
+    """A command of every stage, on what those before it made, and its output."""
+    commands = [
+        "sample OUT.ply --kind torus --faces 120000", "import sample.ply OUT.hdf", "tensor import.hdf OUT.hdf",
+        "tensor-part import.hdf OUT.hdf --part 1 --parts 1", "tensor-merge import.hdf tensor-part.hdf OUT.hdf",
+        "smooth import.hdf tensor.hdf OUT.hdf", "trace import.hdf smooth.hdf OUT.hdf --vertices 8000",
+        "mesh import.hdf trace.hdf OUT.hdf", "fit import.hdf mesh.hdf OUT.hdf --field smooth.hdf",
+        "size import.hdf smooth.hdf trace.hdf fit.hdf OUT.hdf",
+        "refine import.hdf fit.hdf OUT.hdf --refine-tolerance 0.03%", "export fit.hdf OUT.obj",
+        "evaluate import.hdf fit.hdf OUT.json --samples 1000000"]
+    for command in commands:
+        stage, *words = command.split()
+        output = folder / next(word for word in words if "OUT" in word).replace("OUT", stage)
+        inputs = [str(folder / word) if "." in word and "%" not in word else word
+                  for word in words if "OUT" not in word]
+        yield stage, [*inputs, "-o", str(output), "--threads", "1", "-q"], output
+
+
+def cancel(programs, folder):
+    """SIGINT at any moment of any stage: it ends with its code within a second of work, and leaves
+    nothing."""
+    choice = random.Random(SEED)
+    slowest = {}
+    for stage, words, output in stage_commands(folder):
+        command = [programs / f"strake-{stage}", *words]
+        run = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+        whole = os.wait4(run.pid, 0)[2]
+        run.returncode = 0
+        check(output.exists(), stage, "did not end")
+        made = output.read_bytes()
+        whole = whole.ru_utime + whole.ru_stime
+        stopped = 0
+        for moment in [choice.uniform(0.1, 1) for _ in range(6)]:
+            output.unlink()
+            run = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+            while run.poll() is None and processor_seconds(run.pid) < moment * whole:
+                time.sleep(0.002)
+            before = processor_seconds(run.pid) if run.poll() is None else 0
+            run.send_signal(signal.SIGINT)
+            said = run.stderr.read().decode()
+            status, used = os.wait4(run.pid, 0)[1:] if run.returncode is None else (0, None)
+            run.returncode = run.returncode or os.waitstatus_to_exitcode(status)
+            check(run.returncode in (0, 130), stage, run.returncode, said)
+            check(run.returncode == 130 or output.exists(), stage, "has no output")
+            check(not output.exists() or output.read_bytes() == made, stage, "left half an output")
+            check(not [*folder.glob(".*")], stage, "left", [*folder.glob(".*")])
+            if run.returncode == 130:
+                stopped += 1
+                after = used.ru_utime + used.ru_stime - before
+                slowest[stage] = max(slowest.get(stage, 0), after)
+            output.write_bytes(made)
+        print(f"{stage}: {whole:.2f} s, {stopped} of 6 interrupted, the slowest after "
+              f"{slowest.get(stage, 0):.2f} s of work", flush=True)
+    check(len(slowest) >= 9, "hardly a stage was interrupted:", slowest)
+    check(max(slowest.values()) < 1, "interruptions that took longer than a second:", slowest)
+
+
 def mount(folder, options):
     folder.mkdir(parents=True, exist_ok=True)
     subprocess.run(["mount", "-t", "tmpfs", "-o", options, "tmpfs", str(folder)], check=True)
@@ -272,6 +336,110 @@ def disk_full(programs, folder):
         subprocess.run(["mount", "-o", "remount,size=64m", str(disk)], check=True)
         place.check_complete(reference, outputs)
         check(not place.half_written(), place.half_written())
+
+
+class Remesh:
+    """strake remesh in a folder with a result from before, which must survive all that goes wrong."""
+
+    COMMAND = ["remesh", "torus.ply", "-o", "out/quads.obj", "--vertices", "400"]
+    BEFORE = b"from before\n"
+
+    def __init__(self, programs, folder):
+        self.strake = programs / "strake"
+        self.folder = folder
+        (folder / "out").mkdir(exist_ok=True)
+        self.output = folder / "out/quads.obj"
+        subprocess.run([self.strake, "sample", "torus", "-o", folder / "torus.ply", "--faces", "4000"],
+                       check=True, stdout=subprocess.DEVNULL)
+
+    def start(self, limits=()):
+        def limit():
+            for what, most in limits:
+                resource.setrlimit(what, (most, most))
+        self.output.write_bytes(self.BEFORE)
+        return subprocess.Popen([self.strake, *self.COMMAND], cwd=self.folder, preexec_fn=limit,
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+    def check_untouched(self, *what):
+        check(self.output.read_bytes() == self.BEFORE, *what, "the result from before is gone")
+
+    def fails(self, limits, codes, *parts):
+        """Fails with one of the codes and all parts in its message, and leaves nothing."""
+        run = self.start(limits)
+        said = run.communicate(timeout=60)[1]
+        check(run.returncode in codes, limits, run.returncode, said)
+        for part in parts:
+            check(part in said, limits, "is not told:", said)
+        self.check_untouched(limits)
+        left = [file.name for file in self.output.parent.iterdir() if file != self.output]
+        check(not left, limits, "left", left)
+
+
+def starved(programs, folder):
+    """Files that may not grow, and less and less memory."""
+    remesh = Remesh(programs, folder)
+    for most in (0, 1, 1000, 8192):
+        remesh.fails([(resource.RLIMIT_FSIZE, most)], [3], "File too large")
+    megabytes = 1 << 20
+    loads = next(most for most in range(20, 1000, 5) if subprocess.run(
+        [remesh.strake, "--version"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+        preexec_fn=lambda most=most: resource.setrlimit(
+            resource.RLIMIT_AS, (most * megabytes, most * megabytes))).returncode == 0)
+    ends = 0
+    for most in range(loads, 10000, 8):
+        run = remesh.start([(resource.RLIMIT_AS, most * megabytes)])
+        said = run.communicate(timeout=60)[1]
+        if run.returncode == 0:
+            break
+        check(run.returncode == 1 and "out of memory" in said, most, "MB:", run.returncode, said)
+        remesh.check_untouched(most, "MB")
+        ends += 1
+    print(f"{ends} runs were out of memory, from {loads} MB on; {most} MB are enough")
+    check(ends > 3, "too few runs were out of memory")
+
+
+def killed(programs, folder):
+    """kill -9 of a program at random moments."""
+    remesh = Remesh(programs, folder)
+    run = remesh.start()
+    begin = time.monotonic()
+    run.communicate(timeout=60)
+    whole = time.monotonic() - begin
+    made = remesh.output.read_bytes()
+    choice = random.Random(SEED)
+    for _ in range(20):
+        run = remesh.start()
+        time.sleep(choice.uniform(0, 1.2) * whole)
+        run.kill()
+        run.communicate()
+        check(remesh.output.read_bytes() in (remesh.BEFORE, made), "half a result")
+
+
+def fill(disk):
+    with (disk / "filler").open("wb", buffering=0) as file:
+        try:
+            while file.write(bytes(4096)):
+                pass
+        except OSError:
+            return
+
+
+def no_place(programs, folder):
+    """A program's own result on a full and on a read-only disk."""
+    for name, told in (("full", "No space left"), ("read-only", "Read-only file system")):
+        disk = folder / f"disk-{name}"
+        mount(disk, "size=1m")
+        remesh = Remesh(programs, disk)
+        remesh.output.write_bytes(remesh.BEFORE)
+        if name == "full":
+            fill(disk)
+        else:
+            subprocess.run(["mount", "-o", "remount,ro", str(disk)], check=True)
+        done = subprocess.run([remesh.strake, *remesh.COMMAND], cwd=disk, text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        check(done.returncode == 3 and told in done.stderr, name, done.returncode, done.stderr)
+        remesh.check_untouched(name)
+        check(len([*remesh.output.parent.iterdir()]) == 1, name, "something is left")
 
 
 def read_only(programs, folder):
@@ -296,8 +464,9 @@ def read_only(programs, folder):
 
 
 SUITES = {suite.__name__: suite
-          for suite in (kills, interrupts, together, memory, disk_full, read_only)}
-NEED_MOUNTS = ("disk_full", "read_only")
+          for suite in (kills, killed, interrupts, cancel, together, memory, starved, disk_full,
+                       no_place, read_only)}
+NEED_MOUNTS = ("disk_full", "no_place", "read_only")
 
 
 def main():

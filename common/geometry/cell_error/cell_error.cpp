@@ -65,10 +65,8 @@ struct Sums {
 class BendFit {
  public:
   /// \param normal  of the plane, not zero
-  BendFit(const Vec3& centre, const Vec3& normal) : centre_(centre) {
-    u_ = normal.unitOrthogonal();
-    v_ = normal.normalized().cross(u_);
-  }
+  BendFit(const Vec3& centre, const Vec3& normal)
+      : centre_(centre), u_(normal.unitOrthogonal()), v_(normal.normalized().cross(u_)) {}
 
   void add(const Vec3& at, double height) {
     const double u = u_.dot(at - centre_);

@@ -13,8 +13,9 @@ constexpr std::int64_t kFrame = std::int64_t{1} << 26;
 }  // namespace
 
 PlanarTriangulation::PlanarTriangulation(const Vec2& lower, const Vec2& upper)
-    : centre_((lower + upper) / 2), scale_(kHalfGrid / ((upper - lower).maxCoeff() / 2)) {
-  points_ = {{-kFrame, -kFrame}, {kFrame, -kFrame}, {kFrame, kFrame}, {-kFrame, kFrame}};
+    : centre_((lower + upper) / 2),
+      scale_(kHalfGrid / ((upper - lower).maxCoeff() / 2)),
+      points_({{-kFrame, -kFrame}, {kFrame, -kFrame}, {kFrame, kFrame}, {-kFrame, kFrame}}) {
   triangles_.push_back({{0, 1, 2}, {kNone, 1, kNone}, {0, 0, 0}});
   triangles_.push_back({{0, 2, 3}, {kNone, kNone, 0}, {0, 0, 0}});
   triangle_of_ = {0, 0, 0, 1};
@@ -138,7 +139,8 @@ Index PlanarTriangulation::fill_cavity() {
     triangles_[t].neighbours[0] = following;
     triangles_[following].neighbours[1] = t;
   }
-  triangle_of_.push_back(fresh_.front());
+  // A cavity has an edge, so there is a new triangle.
+  triangle_of_.push_back(fresh_.front());  // cppcheck-suppress containerOutOfBounds
   return vertex;
 }
 

@@ -5,6 +5,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
+#include <new>
 
 #include "common/core/error.h"
 
@@ -87,9 +90,7 @@ struct SurfaceDistance::Hierarchy {
   RTCScene scene;
 
   Hierarchy() : device(rtcNewDevice(nullptr)), scene(nullptr) {
-    if (device == nullptr) {
-      throw Error(ExitCode::internal, "the spatial index (Embree) does not start");
-    }
+    if (device == nullptr) fail(rtcGetDeviceError(nullptr));
     scene = rtcNewScene(device);
   }
   Hierarchy(const Hierarchy&) = delete;
@@ -97,6 +98,16 @@ struct SurfaceDistance::Hierarchy {
   ~Hierarchy() {
     rtcReleaseScene(scene);
     rtcReleaseDevice(device);
+  }
+
+  /// Embree notes what went wrong, and goes on.
+  void check() const {
+    if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE) fail(error);
+  }
+  /// Triangles are nothing that it could refuse, but for want of memory.
+  [[noreturn]] static void fail(RTCError error) {
+    if (error != RTC_ERROR_UNSUPPORTED_CPU) throw std::bad_alloc();
+    throw Error(ExitCode::internal, "the spatial index (Embree) does not know this processor");
   }
 };
 
@@ -155,25 +166,28 @@ SurfaceDistance::SurfaceDistance(std::vector<Vec3> positions,
   const double half_size = box.sizes().maxCoeff() / 2;
   scale_ = half_size > 0 ? 1 / half_size : 1;
 
-  RTCGeometry geometry = rtcNewGeometry(hierarchy_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  const std::unique_ptr<RTCGeometryTy, decltype(&rtcReleaseGeometry)> owner(
+      rtcNewGeometry(hierarchy_->device, RTC_GEOMETRY_TYPE_TRIANGLE), rtcReleaseGeometry);
+  RTCGeometry geometry = owner.get();
   auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
                                                                RTC_FORMAT_FLOAT3, 3 * sizeof(float),
                                                                positions_.size()));
+  auto* indices = static_cast<unsigned*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                              3 * sizeof(unsigned), triangles_.size()));
+  if (vertices == nullptr || indices == nullptr) Hierarchy::fail(RTC_ERROR_OUT_OF_MEMORY);
   for (std::size_t v = 0; v < positions_.size(); ++v) {
     const Vec3 p = scale_ * (positions_[v] - centre_);
     for (int k = 0; k < 3; ++k) vertices[3 * v + k] = static_cast<float>(p[k]);
   }
-  auto* indices = static_cast<unsigned*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                              3 * sizeof(unsigned), triangles_.size()));
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     for (int k = 0; k < 3; ++k) indices[3 * t + k] = static_cast<unsigned>(triangles_[t][k]);
   }
   rtcSetGeometryPointQueryFunction(geometry, visit_triangle);
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(hierarchy_->scene, geometry);
-  rtcReleaseGeometry(geometry);
   rtcCommitScene(hierarchy_->scene);
+  hierarchy_->check();
 }
 
 SurfaceDistance::~SurfaceDistance() = default;
