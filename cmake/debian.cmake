@@ -1,6 +1,14 @@
 # Debian packages by `cpack -G DEB`: strake (programs), libstrake-dev (library), python3-strake.
 set(CPACK_GENERATOR DEB)
-set(CPACK_PACKAGE_CONTACT "The strake authors <strake@example.org>")
+# Who builds a package is its maintainer, as Debian's own tools have it: DEBFULLNAME and DEBEMAIL. Strake has no
+# public address; root@localhost is what packages for one's own machines carry.
+set(contact_name "$ENV{DEBFULLNAME}")
+set(contact_address "$ENV{DEBEMAIL}")
+if(NOT contact_name OR NOT contact_address)
+  set(contact_name "Local build of strake")
+  set(contact_address "root@localhost")
+endif()
+set(CPACK_PACKAGE_CONTACT "${contact_name} <${contact_address}>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)

@@ -1,7 +1,8 @@
-"""Makes the Debian packages of a build and uses them unpacked: check_debian.py BUILD.
+"""Makes the Debian packages of a build, installs, uses and removes them: check_debian.py BUILD.
 
-Packages are unpacked with `dpkg -x` into an empty folder, so nothing needs to be installed. Their
-programs, manual pages, completions and Python module are there and work from that place.
+dpkg installs them into an empty folder, by a copy of the machine's list of packages: dependencies are those
+that are really there, and the machine stays as it is. Programs, manual pages, completions and the Python module
+work from that place, and nothing is left of them after removal.
 """
 
 import os
@@ -25,6 +26,8 @@ def field(package, name):
 
 
 def check_control(packages):
+    for package in packages.values():
+        assert "example" not in field(package, "Maintainer"), field(package, "Maintainer")
     depends = field(packages["strake"], "Depends")
     for library in ("libc6", "libhdf5", "libtbb", "libembree3", "libyaml-cpp"):
         assert library in depends, f"strake does not depend on {library}: {depends}"
@@ -33,6 +36,41 @@ def check_control(packages):
         depends = field(packages["python3-strake"], "Depends")
         assert "python3-numpy" in depends and "libtbb" in depends, depends
         assert "hdf5" not in depends, depends
+
+
+class Installation:
+    """A folder with a list of packages of its own, to which dpkg installs as to a machine."""
+
+    def __init__(self, folder):
+        self.root, self.list = folder / "root", folder / "dpkg"
+        self.root.mkdir()
+        for name in ("info", "updates", "triggers"):
+            (self.list / name).mkdir(parents=True)
+        # All but packages of strake that the machine may have itself.
+        installed = pathlib.Path("/var/lib/dpkg/status").read_text().split("\n\n")
+        others = [block for block in installed if "strake" not in block.partition("\n")[0]]
+        (self.list / "status").write_text("\n\n".join(others))
+
+    def dpkg(self, *words):
+        """Runs dpkg on this list and folder. Returns what it said."""
+        return run("dpkg", f"--admindir={self.list}", f"--instdir={self.root}", f"--log={self.list}/log",
+                   "--force-not-root", "--force-script-chrootless", *words,
+                   env={"PATH": "/usr/sbin:/usr/bin:/sbin:/bin"})
+
+
+def check_installed(installation, packages):
+    """All files of the packages are there as packed, and belong to them."""
+    for package in packages:
+        assert "install ok installed" in installation.dpkg("--status", package), package
+        assert installation.dpkg("--verify", package) == "", package
+        files = [pathlib.Path(line) for line in installation.dpkg("--listfiles", package).splitlines()[1:]]
+        assert files and all((installation.root / path.relative_to("/")).exists() for path in files)
+
+
+def check_removal(installation, packages):
+    installation.dpkg("--purge", *packages)
+    left = [path for path in installation.root.rglob("*") if not path.is_dir()]
+    assert not left, left
 
 
 def check_programs(root, folder):
@@ -57,7 +95,8 @@ def check_python(root, folder):
     code = ("import strake, numpy; V, F = strake.remesh(numpy.array([[0., 0, 0], [1, 0, 0], "
             "[1, 1, 0], [0, 1, 0]]), [[0, 1, 2, 3]], faces_wanted=16); print(strake.__file__, len(F))")
     said = run("/usr/bin/python3", "-c", code, cwd=folder,
-               env={"PYTHONPATH": f"{root}/usr/lib/python3/dist-packages", "PATH": os.environ["PATH"]})
+               env={"PYTHONPATH": f"{root}/usr/lib/python3/dist-packages", "PATH": os.environ["PATH"],
+                    "PYTHONDONTWRITEBYTECODE": "1"})
     assert said.startswith(str(root)), said
 
 
@@ -69,13 +108,15 @@ def main():
         folder = pathlib.Path(name)
         packages = make_packages(build, folder)
         check_control(packages)
-        root = folder / "root"
-        for package in packages.values():
-            run("dpkg-deb", "-x", package, root)
+        installation = Installation(folder)
+        installation.dpkg("--install", *packages.values())
+        check_installed(installation, packages)
+        root = installation.root
         check_programs(root, folder)
         if "python3-strake" in packages:
             check_python(root, folder)
         assert (root / "usr/lib/cmake/strake/strakeConfig.cmake").exists()
+        check_removal(installation, packages)
         sizes = ", ".join(f"{package} {path.stat().st_size / 1e6:.1f} MB"
                           for package, path in sorted(packages.items()))
         print(f"the Debian packages work: {sizes}")
