@@ -15,6 +15,8 @@ ELSEWHERE = {
     "ctest --preset release -R Trace": ("scripts/test", 'ctest --preset "$preset"'),
     "ctest --preset release -L slurm": ("scripts/test", 'ctest --preset "$preset"'),
     "ctest -L browser": ("scripts/test", 'ctest --preset "$preset"'),
+    "ctest -L paraview": ("tests/CMakeLists.txt", "paraview/check_guide.py"),
+    "pvpython docs/paraview/show_run.py work pictures": ("tests/paraview/check_guide.py", "docs/paraview/show_run.py"),
     "ctest -L blender": ("scripts/test", 'ctest --preset "$preset"'),
     "cmake --install build": ("tests/package/check_package.py", 'run("cmake", "--install", build'),
     "cmake --install build --prefix PREFIX": ("tests/package/check_package.py", 'run("cmake", "--install", build'),
@@ -42,6 +44,9 @@ BY_HAND = {
     "cmake --build build --target strake-bench-decimate": "for the benches above",
     "scripts/compare_builds build/bin build-clang/bin MESH...": "takes another build of everything, with clang",
     "scripts/mutate": "builds a part of everything anew for each fault, for half an hour",
+    "paraview --state=pictures/run.pvsm": "opens a window",
+    "tests/paraview/make_root paraview-root": "fetches 2 GB; before each release",
+    "STRAKE_PVPYTHON=$PWD/paraview-root/pvpython ctest --preset release -L paraview": "takes the above",
     "scripts/fuzz 60": "builds everything anew with clang and looks for faults as long as it is let",
 }
 
