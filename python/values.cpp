@@ -84,18 +84,53 @@ class ValueClass {
   py::class_<HeldAs<T>, Held> class_;
 };
 
+/// Properties of all values that have attributes. \param attributes  gives the Attributes
+template <class T, class Give>
+void add_attribute_properties(ValueClass<T>& value_class, Give attributes) {
+  value_class
+      .array(
+          "colours",
+          [attributes](const T& value) -> const auto& { return attributes(value).colour; },
+          "[V, 4] red, green, blue, opacity in [0, 1]; empty where there are none")
+      .array(
+          "texture",
+          [attributes](const T& value) -> const auto& { return attributes(value).texture; },
+          "[corners, 2] texture coordinates of each corner; empty where there are none")
+      .plain(
+          "labels",
+          [attributes](const T& value) {
+            py::dict labels;
+            for (const FaceLabels& own : attributes(value).labels) {
+              labels[py::str(own.name)] = py::array_t<Index>(
+                  static_cast<py::ssize_t>(own.of_face.size()), own.of_face.data());
+            }
+            return labels;
+          },
+          "dict of [F] arrays: a number for every face, by kind of labels")
+      .plain(
+          "label_names",
+          [attributes](const T& value) {
+            std::map<std::string, std::vector<std::string>> names;
+            for (const FaceLabels& own : attributes(value).labels) {
+              if (!own.names.empty()) names[own.name] = own.names;
+            }
+            return names;
+          },
+          "dict of lists: what the numbers of `labels` stand for, for kinds that have names");
+}
+
 /// The members of T as functions that give them.
 #define STRAKE_MEMBER(member) \
   [](const auto& value) -> const auto& { return value.member; }
 
 void add_mesh(py::module_& module) {
-  ValueClass<TriMesh>(
+  ValueClass<TriMesh> meshes(
       module, "TriMesh",
       "A sound triangle mesh with its feature graph: V vertices, F faces, W wedges.\n\n"
       "Half-edge 3 f + i runs from corner i of face f to the next. A wedge is a run "
       "of corners around a vertex between two feature or boundary edges; fields "
-      "live on wedges.")
-      .array("positions", STRAKE_MEMBER(positions), "[V, 3] relative to `origin`")
+      "live on wedges.");
+  meshes.array("positions", STRAKE_MEMBER(positions), "[V, 3] relative to `origin`")
       .array("faces", STRAKE_MEMBER(faces), "[F, 3] counter-clockwise seen from outside")
       .array("twin", STRAKE_MEMBER(twin), "[F, 3] opposite half-edge, -1 on the boundary", 3)
       .array("is_feature", STRAKE_MEMBER(is_feature), "[F, 3] 1 on feature half-edges", 3)
@@ -112,6 +147,7 @@ void add_mesh(py::module_& module) {
           "to be added to `positions`")
       .plain("diagonal", STRAKE_MEMBER(diagonal), "of the bounding box")
       .plain("id", STRAKE_MEMBER(id), "content hash");
+  add_attribute_properties(meshes, STRAKE_MEMBER(attributes));
 }
 
 void add_fields(py::module_& module) {
@@ -181,22 +217,9 @@ void add_polygon_properties(ValueClass<T>& value_class, Mesh mesh) {
           "[F + 1] face f has corners offsets[f] and on")
       .array(
           "corners", [mesh](const T& value) -> const auto& { return mesh(value).corners; },
-          "vertex of each corner, counter-clockwise")
-      .array(
-          "colours",
-          [mesh](const T& value) -> const auto& { return mesh(value).attributes.colour; },
-          "[V, 4] red, green, blue, opacity in [0, 1]; empty where there are none")
-      .plain(
-          "labels",
-          [mesh](const T& value) {
-            py::dict labels;
-            for (const FaceLabels& own : mesh(value).attributes.labels) {
-              labels[py::str(own.name)] = py::array_t<Index>(
-                  static_cast<py::ssize_t>(own.of_face.size()), own.of_face.data());
-            }
-            return labels;
-          },
-          "dict of [F] arrays: a number for every face, by name");
+          "vertex of each corner, counter-clockwise");
+  add_attribute_properties(
+      value_class, [mesh](const T& value) -> const auto& { return mesh(value).attributes; });
 }
 
 void add_polygons(py::module_& module) {
@@ -243,7 +266,9 @@ bool are_offsets(const std::vector<Index>& offsets, std::size_t corners) {
 
 py::object make_polygons(const Array<double>& vertices, const Array<Index>& offsets,
                          const Array<Index>& corners, const std::optional<Array<double>>& colours,
-                         const std::map<std::string, Array<Index>>& labels) {
+                         const std::optional<Array<double>>& texture,
+                         const std::map<std::string, Array<Index>>& labels,
+                         const std::map<std::string, std::vector<std::string>>& label_names) {
   PolyMesh mesh;
   for (const auto& row : rows<double, 3>(vertices, "vertices")) {
     mesh.positions.push_back({row[0], row[1], row[2]});
@@ -257,8 +282,15 @@ py::object make_polygons(const Array<double>& vertices, const Array<Index>& offs
   if (colours && mesh.attributes.colour.size() != mesh.positions.size()) {
     throw InputError("there is not one colour for every vertex");
   }
+  if (texture) mesh.attributes.texture = rows<double, 2>(*texture, "texture coordinates");
+  if (texture && mesh.attributes.texture.size() != mesh.corners.size()) {
+    throw InputError("there are not texture coordinates for every corner");
+  }
   for (const auto& [name, array] : labels) {
-    mesh.attributes.labels.push_back({name, numbers(array), {}});
+    const auto names = label_names.find(name);
+    mesh.attributes.labels.push_back(
+        {name, numbers(array),
+         names == label_names.end() ? std::vector<std::string>{} : names->second});
     if (array.size() != mesh.face_count()) {
       throw InputError("labels '" + name + "': there is not one for every face");
     }
@@ -300,7 +332,8 @@ void add_values(py::module_& module) {
   py::class_<HeldAs<GuideLines>, Held>(module, "GuideLines", "Lines for edges to run along.");
   py::class_<HeldAs<DensityField>, Held>(module, "DensityField", "Wanted vertices per area.");
   module.def("polygons", &make_polygons, py::arg("vertices"), py::arg("offsets"),
-             py::arg("corners"), py::arg("colours") = py::none(), py::arg("labels") = py::dict());
+             py::arg("corners"), py::arg("colours") = py::none(), py::arg("texture") = py::none(),
+             py::arg("labels") = py::dict(), py::arg("label_names") = py::dict());
   module.def("polygons_of", [](const HeldAs<QuadMesh>& quads) {
     return hold(Polygons{quads.get().mesh, quads.get().mesh_id, {}});
   });

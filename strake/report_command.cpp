@@ -11,12 +11,15 @@
 #include "strake/commands.h"
 #include "strake/report/page.h"
 #include "strake/report/viewer.h"
+#include "strake/run/pipeline_options.h"
+#include "strake/run/target_results.h"
 
 namespace strake {
 namespace {
 
 struct ReportCommand {
-  std::vector<std::string> folders;
+  std::vector<std::string> runs;
+  std::string pipeline;
   std::string output;
   std::int64_t threads = 0;
 };
@@ -28,12 +31,31 @@ void require_viewer() {
       "install nodejs and npm), then scripts/build_viewer, and build strake again");
 }
 
+std::vector<report::RunFiles> read_runs(const ReportCommand& command) {
+  std::vector<report::RunFiles> runs;
+  if (command.pipeline.empty()) {
+    if (command.runs.empty()) {
+      throw UsageError(
+          "name a folder that 'strake remesh --keep FOLDER' made, or a pipeline: --pipeline FILE");
+    }
+    for (const std::string& folder : command.runs) runs.push_back(report::read_run(folder));
+    return runs;
+  }
+  PipelineOptions pipeline;
+  pipeline.file = command.pipeline;
+  pipeline.targets = command.runs;
+  const Description description = pipeline.read();
+  for (const TargetResults& target : target_results(description, pipeline.selection(description))) {
+    runs.push_back(report::read_run(target.name, target.files, target.seconds));
+  }
+  return runs;
+}
+
 int make_report(const ReportCommand& command) {
   if (std::filesystem::path(command.output).extension() != ".html") {
     throw UsageError("--output '" + command.output + "': the name of a report ends in .html");
   }
-  std::vector<report::RunFiles> runs;
-  for (const std::string& folder : command.folders) runs.push_back(report::read_run(folder));
+  const std::vector<report::RunFiles> runs = read_runs(command);
   require_viewer();
   const std::string page = report::fill_page(report::viewer_page(), report::describe_runs(runs));
   write_text(command.output, page);
@@ -49,10 +71,15 @@ void add_report_command(CLI::App& app, Action& chosen) {
       "report", "Show runs in one HTML file: surfaces, curvature, lines, results, figures.");
   const auto wanted = std::make_shared<ReportCommand>();
   command
-      ->add_option("folders", wanted->folders,
-                   "folders of runs, as 'strake remesh --keep' leaves them; several are compared")
-      ->type_name("FOLDER")
-      ->required();
+      ->add_option(
+          "runs", wanted->runs,
+          "folders of runs, as 'strake remesh --keep' leaves them; with --pipeline MODEL or "
+          "MODEL/VARIANT, default: everything. Several are compared.")
+      ->type_name("FOLDER");
+  command
+      ->add_option("--pipeline", wanted->pipeline,
+                   "Show what the store holds of a pipeline file, with the times that steps took.")
+      ->type_name("FILE");
   command->add_option("-o,--output", wanted->output, "page to write, .html")
       ->type_name("FILE")
       ->required();

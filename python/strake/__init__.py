@@ -142,19 +142,36 @@ def _offsets_and_corners(faces):
     return _np.cumsum([0] + sizes), _np.array(corners, dtype=_np.int32)
 
 
-def polygons(vertices, faces, colours=None, labels=None):
+def _numbered(labels):
+    """Labels of faces as numbers, and what the numbers stand for where texts were given."""
+    numbers, names = {}, {}
+    for kind, values in labels.items():
+        values = _np.asarray(values)
+        if values.dtype.kind in "OSU":
+            known, values = _np.unique(values.astype(str), return_inverse=True)
+            names[kind] = known.tolist()
+        numbers[kind] = values
+    return numbers, names
+
+
+def polygons(vertices, faces, colours=None, texture=None, labels=None):
     """A polygon mesh from arrays.
 
     vertices: [V, 3]. faces: an array [F, 3] or [F, 4], `Faces`, (offsets, corners), or a list of
-    lists, counter-clockwise. colours: [V, 3] or [V, 4] in [0, 1]. labels: dict of [F] integers,
-    such as the material of every face; both are carried to the result.
+    lists, counter-clockwise. What comes along to the result, as far as it is given: colours, [V, 3] or
+    [V, 4] in [0, 1]; texture, [corners, 2] or [F, 3, 2], coordinates of every corner in the order
+    of the faces, from those of vertices by uv[faces]; labels, dict of [F] integers or texts, such as
+    the material of every face.
     """
     offsets, corners = _offsets_and_corners(faces)
     if colours is not None:
         colours = _np.asarray(colours, dtype=float)
         if colours.ndim == 2 and colours.shape[1] == 3:
             colours = _np.hstack([colours, _np.ones((len(colours), 1))])
-    return _core.polygons(vertices, offsets, corners, colours, labels or {})
+    if texture is not None:
+        texture = _np.asarray(texture, dtype=float)
+        texture = texture.reshape(-1, texture.shape[-1])
+    return _core.polygons(vertices, offsets, corners, colours, texture, *_numbered(labels or {}))
 
 
 def _edges(feature_edges):
@@ -169,17 +186,17 @@ def _density(density):
     return None if density is None else _core.density(density)
 
 
-def remesh(vertices, faces, *, colours=None, labels=None, feature_edges=None, guides=None,
-           density=None, measure=True, threads=0, progress=None, **options):
+def remesh(vertices, faces, *, colours=None, texture=None, labels=None, feature_edges=None,
+           guides=None, density=None, measure=True, threads=0, progress=None, **options):
     """Remeshes a surface with quads along its curvature. Gives a `Remeshed`: V, F = remesh(...).
 
-    vertices, faces, colours, labels: as for `polygons`. feature_edges: [N, 2] pairs of vertices
+    vertices, faces, colours, texture, labels: as for `polygons`. feature_edges: [N, 2] pairs of vertices
     whose edges are kept besides those that bend. guides: list of [N, 3] points of lines on or near
     the surface along which edges are to run. density: [V] positive, wanted vertices per area
     relative to what they would be without. measure: whether to measure the result
     (reports["evaluate"]).
     """
-    soup = polygons(vertices, faces, colours, labels)
+    soup = polygons(vertices, faces, colours, texture, labels)
     return Remeshed(*_core.remesh(soup, _edges(feature_edges), _guides(guides),
                                   _density(density),
                                   _settings(options), measure, threads, progress))
@@ -194,10 +211,10 @@ def _run(stage, inputs, options, threads, progress):
     return output, report
 
 
-def import_mesh(vertices, faces, *, colours=None, labels=None, feature_edges=None, threads=0,
-                progress=None, **options):
+def import_mesh(vertices, faces, *, colours=None, texture=None, labels=None, feature_edges=None,
+                threads=0, progress=None, **options):
     """Turns polygons into a sound `TriMesh` with its feature graph; the start of all stages."""
-    inputs = {"input": polygons(vertices, faces, colours, labels),
+    inputs = {"input": polygons(vertices, faces, colours, texture, labels),
               "feature-edges": _edges(feature_edges)}
     return _run("import", inputs, options, threads, progress)[0]
 

@@ -8,9 +8,6 @@
 #include <utility>
 
 #include "common/geometry/poly_topology/face_shape.h"
-#include "common/geometry/poly_topology/poly_edges.h"
-#include "stages/evaluate/alignment.h"
-#include "stages/evaluate/measured_surface.h"
 
 namespace strake::report {
 namespace {
@@ -70,11 +67,9 @@ Histogram edge_lengths(const PolyMesh& mesh, const PolyEdges& edges, double diag
   return histogram;
 }
 
-Histogram alignment(const TriMesh& reference, const PrincipalField& field, const PolyMesh& mesh,
-                    const PolyEdges& edges) {
+Histogram alignment(const std::vector<evaluation::EdgeAngles>& angles) {
   Histogram histogram("alignment", even_bounds(0, 2.5, 18));
-  const evaluation::MeasuredSurface surface(reference.positions, reference.faces, "the mesh");
-  for (const auto& edge : evaluation::measure_edge_angles(reference, surface, field, mesh, edges)) {
+  for (const auto& edge : angles) {
     if (edge.principal_deg >= 0) histogram.add(edge.principal_deg, edge.length);
   }
   return histogram;
@@ -102,15 +97,12 @@ void Histogram::finish() {
   for (double& share : shares) share /= weight_;
 }
 
-std::vector<Histogram> measure_histograms(const TriMesh& mesh, const PrincipalField* field,
-                                          const QuadMesh& quads, const ErrorMap& errors) {
-  PolyMesh local = quads.mesh;
-  for (Vec3& p : local.positions) p -= mesh.origin;
-  const PolyEdges edges = collect_edges(local);
-  std::vector<Histogram> histograms = {valences(local, edges), angles(local),
-                                       edge_lengths(local, edges, mesh.diagonal)};
-  if (field != nullptr) histograms.push_back(alignment(mesh, *field, local, edges));
-  histograms.push_back(distances(errors, mesh.diagonal));
+std::vector<Histogram> measure_histograms(const ResultEdges& result, const ErrorMap& errors,
+                                          double diagonal) {
+  std::vector<Histogram> histograms = {valences(result.mesh, result.edges), angles(result.mesh),
+                                       edge_lengths(result.mesh, result.edges, diagonal)};
+  if (!result.angles.empty()) histograms.push_back(alignment(result.angles));
+  histograms.push_back(distances(errors, diagonal));
   for (Histogram& histogram : histograms) histogram.finish();
   return histograms;
 }

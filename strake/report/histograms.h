@@ -4,10 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "common/core/fields.h"
-#include "common/core/poly_mesh.h"
-#include "common/core/tri_mesh.h"
 #include "common/geometry/cell_error/cell_error.h"
+#include "strake/report/result_edges.h"
 
 namespace strake::report {
 
@@ -33,8 +31,9 @@ struct Histogram {
 /// - "edge_lengths": shares of the diagonal, bins of half an octave
 /// - "alignment": angle of edges to the principal directions, degrees, by length; only with a field
 /// - "distance": largest distance of each face to the surface, shares of the diagonal
-std::vector<Histogram> measure_histograms(const TriMesh& mesh, const PrincipalField* field,
-                                          const QuadMesh& quads, const ErrorMap& errors);
+/// \param diagonal  of the input
+std::vector<Histogram> measure_histograms(const ResultEdges& result, const ErrorMap& errors,
+                                          double diagonal);
 
 nlohmann::ordered_json to_json(const std::vector<Histogram>& histograms);
 

@@ -22,10 +22,11 @@ constexpr std::string_view kBlocksMark = "%STRAKE_BLOCKS%";
 Json describe_run(const RunFiles& run, std::size_t surface, Blocks& blocks) {
   const PrincipalField* field = run.field ? &*run.field : nullptr;
   const ErrorMap errors = measure_cells(ComparedSurfaces(run.mesh, run.quads));
+  const ResultEdges result = measure_edges(run.mesh, field, run.quads);
   Json json = {{"name", run.name},
                {"surface", surface},
-               {"result", result_scene(run.mesh, run.quads, errors, blocks)},
-               {"histograms", to_json(measure_histograms(run.mesh, field, run.quads, errors))},
+               {"result", result_scene(run.quads.provenance, result, errors, blocks)},
+               {"histograms", to_json(measure_histograms(result, errors, run.mesh.diagonal))},
                {"stages", run.stages},
                {"seconds", run.seconds},
                {"missing", run.missing}};

@@ -54,4 +54,15 @@ std::array<std::int8_t, 2> quantise_direction(const Vec3& unit) {
           static_cast<std::int8_t>(std::lround(folded.y() * kLargestByte))};
 }
 
+std::vector<std::array<std::uint8_t, 4>> quantise_colours(const std::vector<Colour>& colours) {
+  std::vector<std::array<std::uint8_t, 4>> bytes(colours.size());
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      bytes[i][k] =
+          static_cast<std::uint8_t>(std::lround(255 * std::clamp(colours[i][k], 0.0, 1.0)));
+    }
+  }
+  return bytes;
+}
+
 }  // namespace strake::report

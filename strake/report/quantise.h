@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/core/attributes.h"
 #include "common/core/types.h"
 
 /// Numbers in few bits, for display. The inverse of each is in viewer/src/decode.js.
@@ -37,5 +38,8 @@ std::int16_t quantise_signed(double value);
 
 /// A unit vector to two bytes by the octahedral map, within 1 degree.
 std::array<std::int8_t, 2> quantise_direction(const Vec3& unit);
+
+/// Red, green, blue and opacity in 0 to 255 each.
+std::vector<std::array<std::uint8_t, 4>> quantise_colours(const std::vector<Colour>& colours);
 
 }  // namespace strake::report

@@ -29,14 +29,24 @@ std::ptrdiff_t stage_place(const std::string& stage) {
   return std::find(kStageOrder.begin(), kStageOrder.end(), stage) - kStageOrder.begin();
 }
 
-[[noreturn]] void refuse(const fs::path& folder, const std::string& what) {
-  throw InputError("folder '" + folder.string() + "' " + what);
+/// The files of a folder by name.
+std::vector<fs::path> files_in(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) {
+    throw InputError("folder '" + folder.string() +
+                     "' is not there; give one that 'strake remesh --keep FOLDER' made");
+  }
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
-/// The artifacts and reports of a folder.
-class Folder {
+/// The artifacts and reports of a run.
+class Sources {
  public:
-  explicit Folder(fs::path path);
+  /// \param place  where they are, for messages: "folder 'run'"
+  Sources(std::string place, const std::vector<fs::path>& files);
 
   /// The quads artifact that no other one was made from; of several the one that was judged, or
   /// that the last stage made.
@@ -47,7 +57,7 @@ class Folder {
   /// what their artifacts say.
   [[nodiscard]] std::vector<Json> records(const Found& result) const;
   [[nodiscard]] const Json& seconds() const { return seconds_; }
-  [[nodiscard]] const fs::path& path() const { return path_; }
+  [[noreturn]] void refuse(const std::string& what) const { throw InputError(place_ + " " + what); }
 
  private:
   void read_json(const fs::path& file);
@@ -55,26 +65,20 @@ class Folder {
   /// Whether a report of the stage evaluate is about this artifact.
   [[nodiscard]] bool is_judged(const Found& found) const;
 
-  fs::path path_;
-  std::vector<Found> artifacts_;  // by name
+  std::string place_;
+  std::vector<Found> artifacts_;
   std::vector<Json> records_;
   Json seconds_;
 };
 
-Folder::Folder(fs::path path) : path_(std::move(path)) {
-  std::error_code error;
-  if (!fs::is_directory(path_, error)) {
-    refuse(path_, "is not there; give one that 'strake remesh --keep FOLDER' made");
-  }
-  std::set<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(path_)) files.insert(entry.path());
+Sources::Sources(std::string place, const std::vector<fs::path>& files) : place_(std::move(place)) {
   for (const fs::path& file : files) {
     if (file.extension() == ".hdf") artifacts_.push_back({file, read_artifact_info(file)});
     if (file.extension() == ".json") read_json(file);
   }
 }
 
-void Folder::read_json(const fs::path& file) {
+void Sources::read_json(const fs::path& file) {
   Json json = Json::parse(read_text(file), nullptr, false);
   if (json.is_discarded()) throw InputError(file.string() + ": is no JSON; write it again");
   if (!json.is_object()) return;
@@ -85,13 +89,13 @@ void Folder::read_json(const fs::path& file) {
   }
 }
 
-bool Folder::is_judged(const Found& found) const {
+bool Sources::is_judged(const Found& found) const {
   return std::any_of(records_.begin(), records_.end(), [&](const Json& record) {
     return record.value("/inputs/candidate"_json_pointer, "") == found.info.content;
   });
 }
 
-const Found& Folder::result() const {
+const Found& Sources::result() const {
   std::set<std::string> used;
   for (const Found& found : artifacts_) {
     if (found.info.kind != ArtifactKind::quads) continue;
@@ -116,18 +120,18 @@ const Found& Folder::result() const {
     }
   }
   if (best == nullptr) {
-    refuse(path_,
-           "holds no artifact of kind 'quads', so there is no result to show; make one with "
-           "'strake remesh MODEL -o OUT --keep FOLDER'");
+    refuse(
+        "holds no artifact of kind 'quads', so there is no result to show; make one with "
+        "'strake remesh MODEL -o OUT --keep FOLDER'");
   }
   if (rival != nullptr) {
-    refuse(path_, "holds several results, " + best->path.filename().string() + " and " +
-                      rival->path.filename().string() + "; give each a folder of its own");
+    refuse("holds several results, " + best->path.filename().string() + " and " +
+           rival->path.filename().string() + "; give each a folder of its own");
   }
   return *best;
 }
 
-const Found* Folder::source_of(const Found& result, ArtifactKind kind) const {
+const Found* Sources::source_of(const Found& result, ArtifactKind kind) const {
   std::map<std::string, const Found*> by_content;
   std::vector<const Found*> of_kind;
   for (const Found& found : artifacts_) {
@@ -147,12 +151,11 @@ const Found* Folder::source_of(const Found& result, ArtifactKind kind) const {
       if (source != by_content.end()) open.push_back(source->second);
     }
   }
-  refuse(path_, "holds several artifacts of kind '" + kind_name(kind) + "', and " +
-                    result.path.filename().string() +
-                    " was made from none of them; keep one of them there");
+  refuse("holds several artifacts of kind '" + kind_name(kind) + "', and " +
+         result.path.filename().string() + " was made from none of them; keep one of them there");
 }
 
-void Folder::add_unreported(std::vector<Json>& records) const {
+void Sources::add_unreported(std::vector<Json>& records) const {
   for (const Found& found : artifacts_) {
     const Provenance& provenance = found.info.provenance;
     const auto is_known = [&](const Json& record) { return record["stage"] == provenance.stage; };
@@ -164,7 +167,7 @@ void Folder::add_unreported(std::vector<Json>& records) const {
   }
 }
 
-std::vector<Json> Folder::records(const Found& result) const {
+std::vector<Json> Sources::records(const Found& result) const {
   std::vector<Json> mine;
   for (const Json& record : records_) {
     const std::string judged = record.value("/inputs/candidate"_json_pointer, result.info.content);
@@ -185,43 +188,53 @@ T read_fitting(PortKind kind, const Found& found, const TriMesh& mesh, const fs:
   return std::get<T>(std::move(value));
 }
 
-}  // namespace
-
-RunFiles read_run(const fs::path& path) {
-  const Folder folder(path);
-  const Found& result = folder.result();
-  const Found* mesh = folder.source_of(result, ArtifactKind::mesh);
+/// Puts together what the sources hold.
+RunFiles read_sources(std::string name, const Sources& sources, Json seconds) {
+  const Found& result = sources.result();
+  const Found* mesh = sources.source_of(result, ArtifactKind::mesh);
   if (mesh == nullptr) {
-    refuse(path,
-           "holds no artifact of kind 'mesh', which the result is compared with; make it with "
-           "'strake-import MODEL -o FOLDER/mesh.hdf'");
+    sources.refuse(
+        "holds no artifact of kind 'mesh', which the result is compared with; make it with "
+        "'strake-import MODEL -o FOLDER/mesh.hdf'");
   }
   RunFiles run;
-  run.name = fs::absolute(path / ".").lexically_normal().parent_path().filename().string();
+  run.name = std::move(name);
   run.mesh = read_tri_mesh(mesh->path);
   run.quads = read_fitting<QuadMesh>(PortKind::quads, result, run.mesh, mesh->path);
-  if (const Found* field = folder.source_of(result, ArtifactKind::field)) {
+  if (const Found* field = sources.source_of(result, ArtifactKind::field)) {
     run.field = read_fitting<PrincipalField>(PortKind::field, *field, run.mesh, mesh->path);
     run.field_content = field->info.content;
   } else {
     run.missing.push_back(
-        "The folder holds no artifact of kind 'field': curvature, directions, confidence and "
+        "There is no artifact of kind 'field': curvature, directions, confidence and "
         "alignment are left out.");
   }
-  if (const Found* lines = folder.source_of(result, ArtifactKind::lines)) {
+  if (const Found* lines = sources.source_of(result, ArtifactKind::lines)) {
     run.lines = read_fitting<LineSet>(PortKind::lines, *lines, run.mesh, mesh->path);
   } else {
-    run.missing.push_back("The folder holds no artifact of kind 'lines': lines are left out.");
+    run.missing.push_back("There is no artifact of kind 'lines': lines are left out.");
   }
-  run.stages = folder.records(result);
-  run.seconds = folder.seconds();
+  run.stages = sources.records(result);
+  run.seconds = seconds.is_null() ? sources.seconds() : std::move(seconds);
   const auto is_evaluation = [](const Json& record) { return record["stage"] == "evaluate"; };
   if (std::none_of(run.stages.begin(), run.stages.end(), is_evaluation)) {
     run.missing.push_back(
-        "The folder holds no report of the stage evaluate on this result: its figures are left "
+        "There is no report of the stage evaluate on this result: its figures are left "
         "out.");
   }
   return run;
+}
+
+}  // namespace
+
+RunFiles read_run(const fs::path& path) {
+  return read_sources(fs::absolute(path / ".").lexically_normal().parent_path().filename().string(),
+                      Sources("folder '" + path.string() + "'", files_in(path)), nullptr);
+}
+
+RunFiles read_run(const std::string& name, const std::vector<fs::path>& files,
+                  nlohmann::ordered_json seconds) {
+  return read_sources(name, Sources("run '" + name + "'", files), std::move(seconds));
 }
 
 }  // namespace strake::report

@@ -14,16 +14,16 @@
 
 namespace strake::report {
 
-/// What a folder holds of one run.
+/// What files hold of one run.
 struct RunFiles {
-  std::string name;  ///< of the folder
+  std::string name;  ///< of the folder or target
   TriMesh mesh;
-  QuadMesh quads;  ///< the result, made after all others in the folder
+  QuadMesh quads;  ///< the result, made after all others
   std::optional<PrincipalField> field;
   std::optional<LineSet> lines;
   std::string field_content;                   ///< names the field; "" where there is none
   std::vector<nlohmann::ordered_json> stages;  ///< records, in the order they were run
-  nlohmann::ordered_json seconds;              ///< by stage; null where the folder does not say
+  nlohmann::ordered_json seconds;              ///< by stage; null where nothing says
   std::vector<std::string> missing;            ///< sentences about what the report goes without
 };
 
@@ -35,5 +35,12 @@ struct RunFiles {
 /// \throw InputError naming folder, kind and remedy where one is missing, ambiguous or damaged;
 ///        PreconditionError where they belong to different meshes
 RunFiles read_run(const std::filesystem::path& folder);
+
+/// The same from files wherever they are.
+/// \param name     of the run, for messages too
+/// \param files    artifacts and stage reports, by their ends .hdf and .json; others are left out
+/// \param seconds  by stage, as `RunFiles` has them
+RunFiles read_run(const std::string& name, const std::vector<std::filesystem::path>& files,
+                  nlohmann::ordered_json seconds);
 
 }  // namespace strake::report

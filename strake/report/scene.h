@@ -8,6 +8,7 @@
 #include "common/core/tri_mesh.h"
 #include "common/geometry/cell_error/cell_error.h"
 #include "strake/report/blocks.h"
+#include "strake/report/result_edges.h"
 
 /// What the viewer draws, as JSON that refers to blocks. docs/report.md lists the members.
 namespace strake::report {
@@ -15,14 +16,17 @@ namespace strake::report {
 /// Input surfaces with more faces are drawn decimated.
 inline constexpr std::size_t kMostFaces = 150000;
 
-/// The input surface, with curvature, directions and confidence where there is a field.
-/// \param field  of this mesh; nullptr: the members "curvature", "directions" are left out
+/// The input surface, with its colours where it has some, and with curvature, directions,
+/// confidence and laid guide lines where there is a field. \param field  of this mesh; nullptr: the
+/// members "curvature", "directions", "guides" are left out
 nlohmann::ordered_json surface_scene(const TriMesh& mesh, const PrincipalField* field,
                                      std::size_t most_faces, Blocks& blocks);
 
-/// The result, with each face's sides and largest distance to the surface.
-/// \param errors  of `quads` against `mesh`
-nlohmann::ordered_json result_scene(const TriMesh& mesh, const QuadMesh& quads,
+/// The result, with each face's sides, mean angle to the curvature and largest distance to the
+/// surface, and with colours and labels where it has some.
+/// \param result  of `quads`
+/// \param errors  of `quads` against the input
+nlohmann::ordered_json result_scene(const VertexProvenance& provenance, const ResultEdges& result,
                                     const ErrorMap& errors, Blocks& blocks);
 
 /// The lines, each thinned out to `kLineDeviation` of the diagonal.

@@ -40,6 +40,21 @@ void add_field(const TriMesh& mesh, const PrincipalField& field, const Proxy& pr
   scene["usual_k_max"] = usual_size(field.k_max) * mesh.diagonal;
 }
 
+/// Pieces of guide lines, each by its two ends.
+void add_guides(const TriMesh& mesh, const LaidGuides& guides, const Grid& grid, Blocks& blocks,
+                Json& scene) {
+  std::vector<GridPoint> ends;
+  for (Index p = 0; p < guides.piece_count(); ++p) {
+    Vec3 middle = Vec3::Zero();
+    for (int i = 0; i < 3; ++i) {
+      middle += guides.barycentric[p][i] * mesh.positions[mesh.faces[guides.face[p]][i]];
+    }
+    ends.push_back(grid.quantise(middle - 0.5 * guides.step[p]));
+    ends.push_back(grid.quantise(middle + 0.5 * guides.step[p]));
+  }
+  scene["guides"] = {{"lines", guides.line_count()}, {"ends", blocks.vertices(ends)}};
+}
+
 }  // namespace
 
 Json surface_scene(const TriMesh& mesh, const PrincipalField* field, std::size_t most_faces,
@@ -58,6 +73,7 @@ Json surface_scene(const TriMesh& mesh, const PrincipalField* field, std::size_t
       {"faces", mesh.face_count()},
       {"shown_faces", proxy.triangles.size() / 3},
       {"shown_deviation_share", proxy.deviation / mesh.diagonal},
+      {"is_closed", std::find(mesh.twin.begin(), mesh.twin.end(), kNone) == mesh.twin.end()},
       {"diagonal", mesh.diagonal},
       {"origin", {mesh.origin.x(), mesh.origin.y(), mesh.origin.z()}},
       {"low", {grid.low().x(), grid.low().y(), grid.low().z()}},
@@ -65,7 +81,16 @@ Json surface_scene(const TriMesh& mesh, const PrincipalField* field, std::size_t
       {"positions", blocks.vertices(points)},
       {"triangles", blocks.triangles(proxy.triangles)},
   };
-  if (field != nullptr) add_field(mesh, *field, proxy, blocks, scene);
+  if (!mesh.attributes.colour.empty()) {
+    std::vector<Colour> colours;
+    for (const Index w : proxy.wedge)
+      colours.push_back(mesh.attributes.colour[mesh.wedge_vertex[w]]);
+    scene["colours"] = blocks.vertices(quantise_colours(colours));
+  }
+  if (field != nullptr) {
+    add_field(mesh, *field, proxy, blocks, scene);
+    if (field->guides.piece_count() > 0) add_guides(mesh, field->guides, grid, blocks, scene);
+  }
   return scene;
 }
 

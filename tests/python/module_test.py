@@ -160,6 +160,35 @@ class Stages(unittest.TestCase):
         right = result.vertices[:, 0] > 0.2  # an edge of the input, over which colours blend
         self.assertGreater(red[right].min(), 0.9)
         self.assertEqual(set(result.quad_mesh.labels["material"]), {3, 4})
+        self.assertEqual(result.quad_mesh.label_names, {})
+        # The mesh after import has them too, and so has what single stages make of it.
+        mesh = strake.import_mesh(vertices, faces, colours=colours, labels=labels)
+        np.testing.assert_array_equal(mesh.colours[:, :3], colours[mesh.source_vertex])
+        field = strake.smooth(mesh, strake.tensor(mesh))
+        quads = strake.mesh(mesh, strake.trace(mesh, field, vertices_wanted=300))
+        self.assertEqual(len(quads.colours), len(quads.vertices))
+
+    def test_names_of_labels_and_texture_coordinates_are_carried(self):
+        # A sheet whose texture coordinates are its first two coordinates; seams nowhere.
+        x, y = np.meshgrid(np.linspace(0, 2, 41), np.linspace(0, 1, 21), indexing="ij")
+        vertices = np.stack([x, y, 0.2 * np.sin(3 * x)], axis=-1).reshape(-1, 3)
+        a = (np.arange(40)[:, None] * 21 + np.arange(20)).ravel()
+        quads = np.stack([a, a + 21, a + 22, a + 1], axis=1)
+        texture = vertices[quads][:, :, :2] / 2
+        names = np.where(vertices[quads].mean(axis=1)[:, 0] < 1, "left", "right")
+        result = strake.remesh(vertices, quads, texture=texture, labels={"usemtl": names},
+                               vertices_wanted=300, measure=False).quad_mesh
+        self.assertEqual(result.texture.shape, (len(result.corners), 2))
+        # Linear in the position but for how far vertices lie off the sheet.
+        np.testing.assert_allclose(result.texture, result.vertices[result.corners][:, :2] / 2, atol=0.01)
+        self.assertEqual(result.label_names, {"usemtl": ["left", "right"]})
+        middles = np.array([result.vertices[face].mean(axis=0) for face in result.faces])
+        clear = np.abs(middles[:, 0] - 1) > 0.15
+        np.testing.assert_array_equal(result.labels["usemtl"][clear], (middles[clear, 0] > 1))
+        with self.assertRaisesRegex(strake.InputError, "every corner"):
+            strake.polygons(vertices, quads, texture=texture[1:])
+        with self.assertRaisesRegex(strake.InputError, "2 columns"):
+            strake.polygons(vertices, quads, texture=np.zeros((quads.size, 3)))
 
 
 class Errors(unittest.TestCase):
@@ -218,7 +247,7 @@ class Running(unittest.TestCase):
             while not stop.is_set():
                 steps.append(time.monotonic())
                 time.sleep(0.005)
-        thread = threading.Thread(target=count)
+        thread = threading.Thread(target=count, daemon=True)
         thread.start()
         begin = time.monotonic()
         strake.tensor(strake.import_mesh(*torus(400, 200)), radius="3%")

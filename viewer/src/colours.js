@@ -18,6 +18,9 @@ export const endColours = ["#7a828e", "#e0a100", "#0f9d76", "#8a4fd0", "#ff3b7f"
 
 export const sideColours = { 3: hex("#f0a03c"), 4: hex("#c9ced6"), 5: hex("#58b368"), more: hex("#c65bb5") };
 export const plainColour = hex("#c9ced6");
+export const unjudgedColour = hex("#8f97a3");
+export const guideColour = hex("#ff7a00");
+export const cutColour = hex("#4a3a1e");
 export const runColours = ["#3b7ddd", "#e07a1f", "#2a9d63", "#b0479f", "#8d6e3f", "#5f6b7a", "#c43d4b", "#1f9bb0"];
 
 const scales = {
@@ -25,6 +28,8 @@ const scales = {
   diverging: ["#0d6f69", "#45a89d", "#a5d3cb", "#d9dbde", "#ead29b", "#cfa145", "#8a5f10"].map(hex),
   // What can be relied upon looks like plain surface; the rest stands out.
   confidence: ["#c2187a", "#e0559b", "#eb9dc0", "#d8ccd6", "#c9ced6"].map(hex),
+  // As confidence: what is as it should be looks plain.
+  alignment: ["#d3d8df", "#f2c9a0", "#e58a4f", "#c23b3b", "#7a1038"].map(hex),
   distance: ["#e6ebf0", "#b6d9c9", "#6cbfae", "#2d8fa6", "#30578f", "#3b2566"].map(hex),
 };
 

@@ -1,8 +1,8 @@
 // The panel beside the drawing: what each pane shows.
-import { cssColour, endColours, endNames, familyColours, scaleGradient, sideColours } from "./colours.js";
+import { cssColour, endColours, endNames, familyColours, guideColour, scaleGradient, sideColours, unjudgedColour } from "./colours.js";
 import { count, el, figure, percent } from "./dom.js";
 import { facesShown } from "./numbers.js";
-import { curvatureEnd, distanceEnd, inputColourings, resultColourings } from "./tints.js";
+import { colouringsOf, curvatureEnd, distanceEnd, labelColour } from "./tints.js";
 
 /** Builds the panel; call `refresh` after the view has changed elsewhere. */
 export class Controls {
@@ -73,11 +73,8 @@ export class Controls {
     const box = el("section", {}, el("h2", {}, "Surface"),
       this.choice("Surface", [["input", "Input", "1"], ["result", "Result", "2"], ["none", "None", "0"]], pane.base, (value) => (pane.base = value)));
     if (pane.base !== "none") {
-      const all = pane.base === "input" ? inputColourings : resultColourings;
-      const hasField = Boolean(run.surface.about.curvature);
       box.append(el("select", { "data-key": "colour", "aria-label": "Colour", title: "Colour (C)", onchange: (event) => this.set(() => (pane.colour[pane.base] = event.target.value)) },
-        Object.entries(all).map(([value, { label, needs }]) =>
-          el("option", { value, selected: value === pane.colour[pane.base], disabled: needs === "field" && !hasField }, label))));
+        colouringsOf(run, pane.base).map(([value, label]) => el("option", { value, selected: value === pane.colour[pane.base] }, label))));
       box.append(legend(run, this.runs, pane));
     }
     box.append(this.toggle("edges", "Edges of the result", { key: "E" }), this.toggle("triangles", "Edges of the input"));
@@ -99,8 +96,10 @@ export class Controls {
 
   directions() {
     if (!this.runs[this.pane.run].surface.about.directions) return null;
+    const { guides } = this.runs[this.pane.run].surface.about;
     return el("section", {}, el("h2", {}, "Directions"),
-      this.toggle("principal", "Principal directions", { key: "D" }), this.toggle("cross", "Cross field that lines follow"));
+      this.toggle("principal", "Principal directions", { key: "D" }), this.toggle("cross", "Cross field that lines follow"),
+      guides && this.toggle("guides", "Guide lines", { colour: guideColour, detail: count(guides.lines) }));
   }
 
   section() {
@@ -113,7 +112,10 @@ export class Controls {
           section.place = Number(event.target.value);
           this.changed();
         } }),
-        el("button", { "data-key": "flip", onclick: () => this.set(() => (section.flipped = !section.flipped)) }, "Flip")));
+        el("button", { "data-key": "flip", title: "Show the other half", onclick: () => this.set(() => (section.flipped = !section.flipped)) }, "Flip")));
+      const { base } = this.pane;
+      const shown = base !== "none" && (base === "input" ? this.runs[this.pane.run].surface : this.runs[this.pane.run].result());
+      if (shown && !shown.about.is_closed) box.append(el("p", { class: "quiet" }, "The surface is open: its cut is a line."));
     }
     return box;
   }
@@ -133,11 +135,13 @@ function legend(run, runs, pane) {
   const colouring = pane.colour[pane.base];
   if (pane.base === "result") {
     if (colouring === "sides") return sidesLegend(run);
+    if (colouring === "alignment") return alignmentLegend();
+    if (colouring === "labels" && run.result().labels()) return labelsLegend(run);
     if (colouring === "distance") return ramp("distance", ["0", `${percent(distanceEnd(runs), 2)} of the diagonal`]);
     return "";
   }
   if (colouring === "confidence") return ramp("confidence", ["0: unreliable", "1: clear"]);
-  if (colouring === "plain" || !run.surface.about.curvature) return "";
+  if (!["k_min", "k_max"].includes(colouring) || !run.surface.about.curvature) return "";
   const end = figure(curvatureEnd(run.surface) / run.surface.about.diagonal, 2);
   return ramp("diverging", [`\u2212${end}`, "0", `+${end}`], ["concave", "flat", "convex"]);
 }
@@ -146,6 +150,22 @@ const ramp = (scale, marks, names = []) =>
   el("div", { class: "ramp" }, el("i", { style: `background:${scaleGradient(scale)}` }),
     el("div", {}, marks.map((mark) => el("span", {}, mark))),
     names.length > 0 && el("div", {}, names.map((name) => el("span", {}, name))));
+
+function alignmentLegend() {
+  const box = ramp("alignment", ["0\u00b0", "22.5\u00b0", "45\u00b0"], ["along it", "random", "across"]);
+  box.append(el("ul", { class: "key" }, el("li", {}, el("i", { class: "swatch", style: `background:${cssColour(unjudgedColour)}` }), el("span", {}, "no clear curvature"))));
+  return box;
+}
+
+function labelsLegend(run) {
+  const { kind, names } = run.about.result.labels;
+  const tally = new Map();
+  for (const label of run.result().labels()) tally.set(label, (tally.get(label) ?? 0) + 1);
+  const shown = [...tally].sort((a, b) => b[1] - a[1]).slice(0, 8);
+  return el("ul", { class: "key" }, shown.map(([label, faces]) =>
+    el("li", {}, el("i", { class: "swatch", style: `background:${cssColour(labelColour(label))}` }), el("span", {}, names[label] ?? `${kind} ${label}`), el("small", {}, count(faces)))),
+    tally.size > shown.length && el("li", {}, el("span", {}, `and ${tally.size - shown.length} more`)));
+}
 
 function sidesLegend(run) {
   const { sides } = run.result();

@@ -9,7 +9,7 @@ import { originPage } from "./origin.js";
 import { pickAt } from "./pick.js";
 import { Stage } from "./stage.js";
 import { firstView, fromHash, toHash } from "./state.js";
-import { inputColourings, resultColourings } from "./tints.js";
+import { colouringsOf } from "./tints.js";
 
 const tabs = [["surface", "Surface"], ["figures", "Figures"], ["origin", "Origin"]];
 
@@ -205,9 +205,7 @@ function flipLines(layers) {
 
 function nextColour(pane, run) {
   if (pane.base === "none") return;
-  const names = Object.entries(pane.base === "input" ? inputColourings : resultColourings)
-    .filter(([, { needs }]) => !needs || run.surface.about.curvature)
-    .map(([name]) => name);
+  const names = colouringsOf(run, pane.base).map(([name]) => name);
   pane.colour[pane.base] = names[(names.indexOf(pane.colour[pane.base]) + 1) % names.length];
 }
 

@@ -40,6 +40,29 @@ export function surfaceMaterial({ flat }) {
   });
 }
 
+/** Of a cut: what flips pixels, and what is drawn where they were flipped an odd number of times. */
+export function capMaterials() {
+  const vertexShader = "void main() { gl_Position = projectionMatrix * viewMatrix * modelMatrix * vec4(position, 1.0); }";
+  const flip = new THREE.ShaderMaterial({
+    side: THREE.DoubleSide, vertexShader, fragmentShader: "void main() { gl_FragColor = vec4(1.0); }",
+    colorWrite: false, depthWrite: false, depthTest: false,
+    stencilWrite: true, stencilFunc: THREE.AlwaysStencilFunc, stencilZPass: THREE.InvertStencilOp, stencilWriteMask: 1,
+  });
+  const fill = new THREE.ShaderMaterial({
+    side: THREE.DoubleSide, vertexShader,
+    uniforms: { ratio: { value: 1 } },
+    fragmentShader: `
+      uniform float ratio;
+      void main() {
+        bool isHatch = mod(gl_FragCoord.x + gl_FragCoord.y, 9.0 * ratio) < 1.5 * ratio;
+        gl_FragColor = vec4(isHatch ? vec3(0.63, 0.55, 0.42) : vec3(0.85, 0.78, 0.65), 1.0);
+      }`,
+    stencilWrite: true, stencilFunc: THREE.EqualStencilFunc, stencilRef: 1, stencilFuncMask: 1,
+    stencilFail: THREE.ZeroStencilOp, stencilZFail: THREE.ZeroStencilOp, stencilZPass: THREE.ZeroStencilOp,
+  });
+  return [flip, fill];
+}
+
 /** One pixel wide lines, on indexed segments. */
 export function edgeMaterial() {
   return new THREE.ShaderMaterial({

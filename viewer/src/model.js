@@ -27,6 +27,8 @@ function openSurface(surface, decode) {
     curvature: once(() => surface.curvature && curvatures(new Int16Array(decode(surface.curvature)))),
     directions: once(() => surface.directions && new Int8Array(decode(surface.directions))),
     normals: once(() => vertexNormals(points, triangles)),
+    colours: once(() => surface.colours && new Uint8Array(decode(surface.colours))),
+    guides: once(() => surface.guides && gridPoints(new Uint16Array(decode(surface.guides.ends)), surface, frame).points),
     edges: once(() => uniqueEdges(everyThird(triangles.length), triangles, points.length / 3)),
   };
 }
@@ -113,8 +115,12 @@ function openResult(result, frame, decode) {
     offsets,
     corners,
     edges,
-    isConcave: (face) => rows[4 * face + 1] !== 0,
+    isConcave: (face) => rows[4 * face + 1] >= 128,
+    /** Mean angle of a face's edges to the curvature, degrees; undefined where that means nothing. */
+    angle: (face) => (rows[4 * face + 1] % 128 === 127 ? undefined : (rows[4 * face + 1] % 128) / 2),
     distanceShare: (face) => (rows[4 * face + 2] + 256 * rows[4 * face + 3]) / 65535,
+    colours: once(() => result.colours && new Uint8Array(decode(result.colours))),
+    labels: once(() => result.labels && new Uint32Array(decode(result.labels.of_face))),
     valence: once(() => valences(edges(), points.length / 3)),
     vertexLines: once(() => result.vertex_lines && new Uint32Array(decode(result.vertex_lines))),
   };

@@ -61,6 +61,7 @@ function describeFace(run, face) {
       ["area", figure((Math.hypot(...normal) / 2) * diagonal * diagonal, 4)],
       ["edge lengths", `${figure(Math.min(...lengths))} to ${figure(Math.max(...lengths))}`],
       ["angles", `${figure(Math.min(...angles))}\u00b0 to ${figure(Math.max(...angles))}\u00b0`],
+      ["angle to the curvature", result.angle(face) === undefined ? "no clear curvature" : `${figure(result.angle(face))}\u00b0, mean of its edges`],
       ["largest distance", `${figure(distance * diagonal)} (${percent(distance)})`],
     ],
   };

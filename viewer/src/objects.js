@@ -1,6 +1,7 @@
 // What is drawn of one run: built when first shown, kept from then on.
 import * as THREE from "three";
-import { endColours, familyColours } from "./colours.js";
+import { capMesh, cutSegments } from "./cap.js";
+import { cutColour, endColours, familyColours, guideColour } from "./colours.js";
 import { edgeMaterial, markMaterial, strokeMaterial, surfaceMaterial } from "./materials.js";
 import { directionsAt } from "./model.js";
 import { distanceEnd, faceTints, inputTints } from "./tints.js";
@@ -16,6 +17,7 @@ export class RunObjects {
     this.runs = runs;
     this.shared = shared;
     this.made = new Map();
+    this.cuts = new Map();
   }
 
   get(name, make) {
@@ -88,6 +90,33 @@ export class RunObjects {
       }
       return marks(lines.points, places, colours, 9, false);
     });
+  }
+
+  /** Guide lines that were given. */
+  guides() {
+    const { surface } = this.run;
+    return this.shared.get(surface, "guides", () => strokes(surface.guides(), [...Array(surface.guides().length / 3).keys()], guideColour, 4));
+  }
+
+  /** The cut of a surface, "input" or "result", with a plane; only the last one of each is kept. */
+  cut(base, { axis, place }) {
+    const key = `${axis} ${place}`;
+    const last = this.cuts.get(base);
+    if (last?.key === key) return last.object;
+    last?.object.traverse((part) => {
+      part.geometry?.dispose();
+      part.material?.dispose();
+    });
+    const { points, triangles, about } = base === "input" ? this.run.surface : this.run.result();
+    const k = "xyz".indexOf(axis);
+    const ends = cutSegments(points, triangles, k, place - 0.5);
+    const object = new THREE.Group();
+    if (about.is_closed && ends.length > 0) object.add(capMesh(ends, k, place - 0.5));
+    const outline = strokes(ends, [...Array(ends.length / 3).keys()], cutColour, 2);
+    outline.material.uniforms.section = { value: new THREE.Vector4(0, 0, 0, 1) }; // rounding must not cut it off
+    object.add(outline);
+    this.cuts.set(base, { key, object });
+    return object;
   }
 
   /** Short strokes along both directions; `which` is "principal" or "cross". */

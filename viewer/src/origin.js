@@ -30,11 +30,13 @@ function options(runs) {
 
 function times(runs) {
   if (runs.every((run) => !run.about.seconds)) {
-    return el("p", {}, "Not recorded: only strake remesh --keep writes times.");
+    return el("p", {}, "Not recorded: a folder has times where strake remesh --keep made it, and pipelines have them with strake report --pipeline.");
   }
   const names = [...new Set(runs.flatMap((run) => Object.keys(run.about.seconds ?? {})))];
   const order = stageNames(runs);
-  names.sort((a, b) => order.indexOf(a) - order.indexOf(b));
+  // What has no record is the making of a sample, or the writing of a file.
+  const place = (name) => (name === "sample" ? -1 : order.includes(name) ? order.indexOf(name) : order.length);
+  names.sort((a, b) => place(a) - place(b));
   const write = (value) => (value === undefined ? "\u2013" : `${figure(value)} s`);
   const total = (run) => run.about.seconds && Object.values(run.about.seconds).reduce((sum, value) => sum + value, 0);
   const most = Math.max(...runs.flatMap((run) => Object.values(run.about.seconds ?? {})), 1e-9);

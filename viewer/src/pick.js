@@ -17,6 +17,8 @@ export function pickAt(stage, x, y) {
   const screen = projector(camera, area);
   const surface = pane.base === "result" ? run.result() : run.surface;
   const hit = pane.base === "none" ? null : nearestHit(caster.ray, surface, sectionOf(stage));
+  // Through the filled cut one sees nothing of what lies behind it.
+  if (hit?.isInside && surface.about.is_closed && stage.view.section.axis !== "none") return null;
   const limit = hit ? hit.distance + 0.01 : Infinity;
   const near = (kind, index) => index >= 0 && { run: pane.run, kind, index };
   return (
@@ -73,7 +75,7 @@ export function nearestHit(ray, { points, triangles }, isCut) {
     if (isCut([ox + distance * dx, oy + distance * dy, oz + distance * dz])) continue;
     const weights = [1 - u - v, u, v];
     const corner = triangles[t + weights.indexOf(Math.max(...weights))];
-    best = { triangle: t / 3, distance, corner };
+    best = { triangle: t / 3, distance, corner, isInside: det < 0 };
   }
   return best;
 }

@@ -25,7 +25,7 @@ export class Stage {
     const shared = new SharedObjects();
     this.objects = runs.map((run) => new RunObjects(run, runs, shared));
     this.isSoftware = drawsInSoftware();
-    this.renderer = new THREE.WebGLRenderer({ antialias: !this.isSoftware, preserveDrawingBuffer: true });
+    this.renderer = new THREE.WebGLRenderer({ antialias: !this.isSoftware, preserveDrawingBuffer: true, stencil: true });
     THREE.ColorManagement.enabled = false;
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     this.renderer.autoClear = false;
@@ -181,7 +181,7 @@ export class Stage {
   /** What a pane shows. */
   scene(area) {
     const scene = new THREE.Scene();
-    const shown = visibleObjects(this.view.panes[area.pane], this.objects);
+    const shown = visibleObjects(this.view.panes[area.pane], this.view.section, this.objects);
     const ink = new THREE.Color(getComputedStyle(this.canvas).color);
     for (const [name, object] of shown) {
       object.traverse((part) => prepare(part, name, ink, area, this.renderer.getPixelRatio()));
@@ -220,12 +220,13 @@ function prepare(part, name, ink, area, ratio) {
 }
 
 /** Names and objects of all that a pane shows. */
-function visibleObjects(pane, objects) {
+function visibleObjects(pane, section, objects) {
   const of = objects[pane.run];
   const lines = of.run.lines();
   const shown = [];
   if (pane.base === "input") shown.push(["input", of.input(pane.colour.input)]);
   if (pane.base === "result") shown.push(["result", of.result(pane.colour.result)]);
+  if (pane.base !== "none" && section.axis !== "none") shown.push(["cut", of.cut(pane.base, section)]);
   if (pane.layers.has("edges")) shown.push(["edges", of.edges()]);
   if (pane.layers.has("triangles")) shown.push(["triangles", of.triangles()]);
   if (lines) {
@@ -235,6 +236,7 @@ function visibleObjects(pane, objects) {
     if (pane.layers.has("seeds")) shown.push(["seeds", of.seeds()]);
     if (pane.layers.has("ends")) shown.push(["ends", of.ends()]);
   }
+  if (pane.layers.has("guides") && of.run.surface.guides()) shown.push(["guides", of.guides()]);
   for (const which of ["principal", "cross"]) {
     if (pane.layers.has(which) && of.run.surface.directions()) shown.push([which, of.directions(which)]);
   }

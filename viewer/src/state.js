@@ -1,7 +1,9 @@
 // What is shown, and its text in the address: a link to a view.
 
+import { inputColourings, resultColourings } from "./tints.js";
+
 export const layerNames = [
-  "edges", "triangles", "minimum", "maximum", "boundary", "feature", "ends", "seeds", "principal", "cross",
+  "edges", "triangles", "minimum", "maximum", "boundary", "feature", "ends", "seeds", "principal", "cross", "guides",
 ];
 
 /** The view a report opens with. */
@@ -71,7 +73,7 @@ export function fromHash(hash, view, runCount) {
 function readPane([run, base, input, result, layers], pane, runCount) {
   if (Number.isInteger(Number(run)) && Number(run) >= 0 && Number(run) < runCount) pane.run = Number(run);
   if (["input", "result", "none"].includes(base)) pane.base = base;
-  if (["plain", "k_min", "k_max", "confidence"].includes(input)) pane.colour.input = input;
-  if (["plain", "sides", "distance"].includes(result)) pane.colour.result = result;
+  if (Object.hasOwn(inputColourings, input)) pane.colour.input = input;
+  if (Object.hasOwn(resultColourings, result)) pane.colour.result = result;
   pane.layers = new Set((layers ?? "").split("+").filter((name) => layerNames.includes(name)));
 }

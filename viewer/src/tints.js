@@ -1,20 +1,31 @@
 // The colours of surfaces: what each way of colouring shows, and its legend.
-import { plainColour, scaleColour, sideColours } from "./colours.js";
+import { plainColour, runColours, scaleColour, sideColours, unjudgedColour } from "./colours.js";
 
 /** Ways to colour the input. Each gives a colour per vertex. */
 export const inputColourings = {
   plain: { label: "Plain" },
-  k_min: { label: "Minimum curvature", needs: "field" },
-  k_max: { label: "Maximum curvature", needs: "field" },
-  confidence: { label: "Confidence", needs: "field" },
+  k_min: { label: "Minimum curvature", needs: "curvature" },
+  k_max: { label: "Maximum curvature", needs: "curvature" },
+  confidence: { label: "Confidence", needs: "curvature" },
+  colours: { label: "Its own colours", needs: "colours" },
 };
 
 /** Ways to colour the result. Each gives a colour per face. */
 export const resultColourings = {
   sides: { label: "Number of sides" },
   distance: { label: "Distance to the input" },
+  alignment: { label: "Angle to the curvature", needs: "alignment" },
+  colours: { label: "Its own colours", needs: "colours" },
+  labels: { label: "Its labels", needs: "labels" },
   plain: { label: "Plain" },
 };
+
+/** Names and labels of the ways to colour that a run has what it takes for. */
+export function colouringsOf(run, base) {
+  const has = base === "input" ? run.surface.about : { ...run.about.result, alignment: run.about.histograms.alignment };
+  const all = base === "input" ? inputColourings : resultColourings;
+  return Object.entries(all).filter(([, { needs }]) => !needs || has[needs]).map(([name, { label }]) => [name, label]);
+}
 
 /** Bytes of [r, g, b] per vertex of the input. */
 export function inputTints(surface, colouring) {
@@ -26,7 +37,8 @@ export function inputTints(surface, colouring) {
 
 function vertexColour(surface, colouring) {
   if (colouring === "confidence") return (v) => scaleColour("confidence", surface.confidence[v]);
-  if (colouring === "plain" || !surface.curvature()) return () => plainColour;
+  if (colouring === "colours" && surface.colours()) return (v) => surface.colours().subarray(4 * v, 4 * v + 3);
+  if (colouring === "plain" || colouring === "colours" || !surface.curvature()) return () => plainColour;
   const values = colouring === "k_min" ? surface.curvature().kMin : surface.curvature().kMax;
   const end = curvatureEnd(surface);
   return (v) => scaleColour("diverging", curvatureShare(values[v], end));
@@ -52,9 +64,26 @@ export function faceTints(run, colouring, end) {
 
 function faceColour(run, result, colouring, face, end) {
   if (colouring === "sides") return sideColours[result.sides[face]] ?? sideColours.more;
-  if (colouring === "plain") return plainColour;
+  if (colouring === "alignment") return angleColour(result.angle(face));
+  if (colouring === "colours" && result.colours()) return meanColour(result, face);
+  if (colouring === "labels" && result.labels()) return labelColour(result.labels()[face]);
+  if (colouring !== "distance") return plainColour;
   return scaleColour("distance", faceDistance(run, face) / end);
 }
+
+const angleColour = (degrees) => (degrees === undefined ? unjudgedColour : scaleColour("alignment", degrees / 45));
+
+function meanColour({ colours, corners, offsets }, face) {
+  const mean = [0, 0, 0];
+  const count = offsets[face + 1] - offsets[face];
+  for (let c = offsets[face]; c < offsets[face + 1]; ++c) {
+    for (let k = 0; k < 3; ++k) mean[k] += colours()[4 * corners[c] + k] / count;
+  }
+  return mean;
+}
+
+/** A colour per label; those of runs are as easy to tell apart. */
+export const labelColour = (label) => runColours[label % runColours.length].match(/\w\w/g).map((byte) => parseInt(byte, 16));
 
 /** Largest distance of a face to the input, as a share of the diagonal. */
 export const faceDistance = (run, face) =>

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { createHash } from "node:crypto";
-import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 
@@ -31,7 +31,12 @@ function makeReports() {
     strake("remesh", "part.ply", "-q", "-o", `part-${tolerance}.obj`, "--keep", `<b>part ${tolerance}`, "--tolerance", tolerance);
   }
   strake("report", "<b>part 0.1%", "<b>part 0.3%", "-o", "part.html");
-  reports.push({ name: "part", result: "part-0.1%.obj", runs: ["<b>part 0.1%", "<b>part 0.3%"] });
+  reports.push({ name: "part", result: "part-0.1%.obj", runs: ["<b>part 0.1%", "<b>part 0.3%"], isClosed: true });
+  writeFileSync(join(folder, "sheet.obj"), colouredSheet(40));
+  writeFileSync(join(folder, "guides.obj"), guideOnSheet());
+  strake("remesh", "sheet.obj", "-q", "-o", "sheet-quads.obj", "--keep", "sheet", "--vertices", "300", "--guides", "guides.obj");
+  strake("report", "sheet", "-o", "sheet.html");
+  reports.push({ name: "sheet", result: "sheet-quads.obj", runs: ["sheet"], hasAttributes: true });
   for (const model of ["cad/rocker-arm.obj", "scan/igea.ply"]) {
     const file = join(models, model);
     if (!models || !existsSync(file)) {
@@ -41,9 +46,33 @@ function makeReports() {
     const name = model.replace(/.*\/|\..*/g, "");
     strake("remesh", file, "-q", "-o", `${name}.obj`, "--keep", name);
     strake("report", name, "-o", `${name}.html`);
-    reports.push({ name, result: `${name}.obj`, runs: [name] });
+    reports.push({ name, result: `${name}.obj`, runs: [name], isClosed: true });
   }
   return reports;
+}
+
+/** A wavy sheet of n x n squares as OBJ, red to the right, green to the back, of two materials. */
+function colouredSheet(n) {
+  const lines = [];
+  for (let i = 0; i <= n * (n + 2); ++i) {
+    const [x, y] = [(i % (n + 1)) / n, Math.floor(i / (n + 1)) / n];
+    lines.push(`v ${x} ${y} ${sheetHeight(x)} ${x} ${y} 0.5`);
+  }
+  for (const half of [0, 1]) {
+    lines.push(`usemtl ${half ? "right" : "left"}`);
+    for (let i = 0; i < n * n; ++i) {
+      const v = (i % n) + (n + 1) * Math.floor(i / n) + 1;
+      if ((i % n < n / 2) === !half) lines.push(`f ${v} ${v + 1} ${v + n + 2} ${v + n + 1}`);
+    }
+  }
+  return `${lines.join("\n")}\n`;
+}
+
+const sheetHeight = (x) => 0.1 * Math.sin(6 * x);
+
+function guideOnSheet() {
+  const points = Array.from({ length: 30 }, (_, i) => [0.1 + 0.025 * i, 0.2 + 0.01 * i]);
+  return `${points.map(([x, y]) => `v ${x} ${y} ${sheetHeight(x)}`).join("\n")}\nl ${points.map((_, i) => i + 1).join(" ")}\n`;
 }
 
 /** A page on a report that fails on any error, and on any request but for the report itself. */
@@ -67,9 +96,39 @@ async function drawing(page) {
   return createHash("sha256").update(picture).digest("hex");
 }
 
-async function checkLayers(page) {
+/** How many pixels of the drawing have a colour. */
+const pixelsOf = (page, colour) => page.evaluate(([r, g, b]) => {
+  const { stage } = window.strakeReport;
+  stage.drawNow();
+  const canvas = Object.assign(document.createElement("canvas"), { width: stage.canvas.width, height: stage.canvas.height });
+  const context = canvas.getContext("2d");
+  context.drawImage(stage.canvas, 0, 0);
+  const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
+  let count = 0;
+  for (let i = 0; i < data.length; i += 4) count += Math.abs(data[i] - r) + Math.abs(data[i + 1] - g) + Math.abs(data[i + 2] - b) < 6;
+  return count;
+}, colour);
+
+const cutFilling = [217, 199, 166];
+
+/** Cuts of closed surfaces are filled, of the input and of the result as much; those of open ones are lines. */
+async function checkSection(browser, report) {
+  const filled = [];
+  for (const pane of ["0,input,plain,sides,", "0,result,plain,plain,"]) {
+    const page = await open(browser, report, `#a=${pane}&section=y,0.5`);
+    filled.push(await pixelsOf(page, cutFilling));
+    await page.locator("button[data-key='Section none']").click();
+    assert.equal(await pixelsOf(page, cutFilling), 0);
+    await page.context().close();
+  }
+  if (!report.isClosed) return assert.deepEqual(filled, [0, 0]);
+  assert.ok(filled[0] > 2000 && Math.abs(filled[0] / filled[1] - 1) < 0.1, `cuts of ${filled} pixels`);
+}
+
+async function checkLayers(page, report) {
   const first = await drawing(page);
-  for (const label of ["Edges of the result", "Edges of the input", "Minimum curvature", "Maximum curvature", "Where they began", "Principal directions", "Cross field"]) {
+  const guides = report.hasAttributes ? ["Guide lines"] : [];
+  for (const label of [...guides, "Edges of the result", "Edges of the input", "Minimum curvature", "Maximum curvature", "Where they began", "Principal directions", "Cross field"]) {
     const box = page.locator("label.toggle", { hasText: label }).locator("input");
     await box.click();
     assert.notEqual(await drawing(page), first, `${label} changes nothing`);
@@ -82,12 +141,13 @@ async function checkLayers(page) {
     assert.ok(!seen.has(pixels), `${what} looks like another view`);
     seen.add(pixels);
   };
-  for (const colour of ["distance", "plain"]) {
+  // The sheet is all quads, and its curvature is clear: those colours are the plain one.
+  for (const colour of ["distance", "alignment", ...(report.hasAttributes ? ["colours", "labels"] : ["plain"])]) {
     await page.locator("select[aria-label=Colour]").selectOption(colour);
     await addView(colour);
   }
   await page.getByRole("button", { name: "Input", exact: true }).click();
-  for (const colour of ["k_min", "k_max", "confidence", "plain"]) {
+  for (const colour of ["k_min", "k_max", "confidence", report.hasAttributes ? "colours" : "plain"]) {
     await page.locator("select[aria-label=Colour]").selectOption(colour);
     await addView(colour);
   }
@@ -100,9 +160,10 @@ async function checkLayers(page) {
 /** Numbers of vertex 0 are those of the file; a click in the middle answers. */
 async function checkPicking(browser, report) {
   const page = await open(browser, report, "#pick=0,vertex,0");
-  const [, ...wanted] = readFileSync(join(folder, report.result), "utf8").match(/^v (\S+) (\S+) (\S+)/m);
+  const vertices = [...readFileSync(join(folder, report.result), "utf8").matchAll(/^v (\S+) (\S+) (\S+)/gm)].map(([, ...xyz]) => xyz);
+  const wanted = vertices[0];
   const text = await page.locator(".numbers dd").first().textContent();
-  const size = Math.max(...wanted.map(Math.abs));
+  const size = vertices.flat().reduce((most, x) => Math.max(most, Math.abs(x)), 0);
   // Written with 5 digits; the grid's steps are 1/65535 of the longest side.
   text.replaceAll("\u2212", "-").replaceAll("\u2009", "").split(", ").map(Number).forEach((x, k) => assert.ok(Math.abs(x - wanted[k]) < 1e-3 * size, `${text} for ${wanted}`));
   const titles = new Set();
@@ -153,6 +214,7 @@ async function checkLooks(browser, report) {
   const looks = [
     ["light", {}, ""],
     ["dark", { colorScheme: "dark" }, "#compare=side,0.5&a=0,input,k_max,sides,minimum+maximum+ends&b=0,result,plain,distance,edges"],
+    ["section", {}, "#compare=wipe,0.5&a=0,input,k_max,sides,&b=0,result,plain,alignment,edges&section=y,0.5"],
     ["figures", {}, "#tab=figures"],
     ["phone", { viewport: { width: 390, height: 844 }, deviceScaleFactor: 2, isMobile: true, hasTouch: true }, ""],
     ["phone-figures", { viewport: { width: 390, height: 844 }, isMobile: true, colorScheme: "dark" }, "#tab=figures"],
@@ -182,11 +244,12 @@ try {
     const ready = await page.evaluate(() => document.documentElement.dataset.ready);
     const megabytes = statSync(join(folder, `${report.name}.html`)).size / 1e6;
     console.log(`browser: ${report.name}: ${megabytes.toFixed(1)} MB, ready after ${ready} ms`);
-    await checkLayers(page);
+    await checkLayers(page, report);
     await checkFigures(page, report);
     await page.context().close();
     await checkPicking(browser, report);
     await checkLink(browser, report);
+    await checkSection(browser, report);
     await checkLooks(browser, report);
   }
   console.log("browser: everything passed");

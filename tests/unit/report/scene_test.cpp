@@ -3,14 +3,18 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
+#include <utility>
 
 #include "common/geometry/line_chord.h"
 #include "common/geometry/samples/samples.h"
 #include "strake/report/histograms.h"
 #include "strake/report/page.h"
 #include "strake/report/proxy.h"
+#include "tests/support/attributed.h"
 #include "tests/support/chain.h"
 #include "tests/unit/report/decoded.h"
 
@@ -63,7 +67,8 @@ TEST(ReportScene, ResultHasAllVerticesAndFacesWithinTheGrid) {
   const auto& [prepared, lines, quads] = example();
   Blocks blocks;
   const ErrorMap errors = measure_cells(ComparedSurfaces(prepared.mesh, quads));
-  const Json scene = report::result_scene(prepared.mesh, quads, errors, blocks);
+  const report::ResultEdges result = report::measure_edges(prepared.mesh, &prepared.field, quads);
+  const Json scene = report::result_scene(quads.provenance, result, errors, blocks);
   const auto bytes = from_base64(blocks.base64());
   const auto points = decode<GridRow>(scene.at("positions"), bytes);
   ASSERT_EQ(points.size(), quads.mesh.positions.size());
@@ -169,26 +174,116 @@ TEST(ReportScene, LinesKeepTheirEndsSeedsAndLengths) {
   }
 }
 
-TEST(ReportScene, HistogramsOfARegularGrid) {
-  // A flat 10 x 10 grid of unit squares, beside a mesh that is the same grid in triangles.
-  PolyMesh soup;
+/// A flat 10 x 10 grid of unit squares as a result, on a mesh that is the same grid in triangles.
+struct FlatGrid {
+  TriMesh mesh;
   QuadMesh quads;
-  for (int y = 0; y <= 10; ++y) {
-    for (int x = 0; x <= 10; ++x) soup.positions.emplace_back(x, y, 0);
+
+  FlatGrid() {
+    PolyMesh soup;
+    for (int y = 0; y <= 10; ++y) {
+      for (int x = 0; x <= 10; ++x) soup.positions.emplace_back(x, y, 0);
+    }
+    quads.mesh.positions = soup.positions;
+    for (Index y = 0; y < 10; ++y) {
+      for (Index x = 0; x < 10; ++x) {
+        const Index v = 11 * y + x;
+        quads.mesh.add_face(std::array{v, v + 1, v + 12, v + 11});
+        soup.add_face(std::array{v, v + 1, v + 12});
+        soup.add_face(std::array{v, v + 12, v + 11});
+      }
+    }
+    SilentObserver observer;
+    mesh = import_mesh(soup, {}, observer).mesh;
   }
-  quads.mesh.positions = soup.positions;
-  for (Index y = 0; y < 10; ++y) {
-    for (Index x = 0; x < 10; ++x) {
-      const Index v = 11 * y + x;
-      quads.mesh.add_face(std::array{v, v + 1, v + 12, v + 11});
-      soup.add_face(std::array{v, v + 1, v + 12});
-      soup.add_face(std::array{v, v + 12, v + 11});
+  /// Curved strongly across a direction that is turned by an angle from the x axis.
+  [[nodiscard]] PrincipalField field(double degrees) const {
+    const double angle = degrees * std::numbers::pi / 180;
+    const auto wedges = static_cast<std::size_t>(mesh.wedge_count());
+    PrincipalField field;
+    field.mesh_id = mesh.id;
+    field.normal.assign(wedges, Vec3::UnitZ());
+    field.t_min.assign(wedges, Vec3(std::cos(angle), std::sin(angle), 0));
+    field.cross = field.t_min;
+    field.k_min.assign(wedges, 0);
+    field.k_max.assign(wedges, 1);
+    field.wedge_confidence.assign(wedges, 1);
+    field.face_confidence.assign(mesh.faces.size(), 1);
+    return field;
+  }
+};
+
+TEST(ReportScene, FacesKnowTheirAngleToTheCurvature) {
+  const FlatGrid grid;
+  const ErrorMap errors = measure_cells(ComparedSurfaces(grid.mesh, grid.quads));
+  // Edges run along x and y: the angle is that of the field, folded into 0 to 45 degrees.
+  for (const auto& [turn, folded] :
+       {std::pair(0.0, 0.0), {20.0, 20.0}, {45.0, 45.0}, {70.0, 20.0}}) {
+    const PrincipalField field = grid.field(turn);
+    Blocks blocks;
+    const Json scene =
+        report::result_scene(grid.quads.provenance,
+                             report::measure_edges(grid.mesh, &field, grid.quads), errors, blocks);
+    const auto rows =
+        decode<std::array<std::uint8_t, 4>>(scene.at("face_rows"), from_base64(blocks.base64()));
+    for (const auto& row : rows) EXPECT_EQ(row[1], std::lround(2 * folded)) << turn;
+  }
+  Blocks blocks;
+  const Json scene = report::result_scene(
+      grid.quads.provenance, report::measure_edges(grid.mesh, nullptr, grid.quads), errors, blocks);
+  const auto rows =
+      decode<std::array<std::uint8_t, 4>>(scene.at("face_rows"), from_base64(blocks.base64()));
+  for (const auto& row : rows) EXPECT_EQ(row[1], 127) << "no field, no angle";
+}
+
+TEST(ReportScene, ColoursLabelsAndGuidesComeAlong) {
+  FlatGrid grid;
+  support::colour_linearly(grid.quads.mesh);
+  FaceLabels halves{"g", {}, {"left", "right"}};
+  for (Index f = 0; f < grid.quads.mesh.face_count(); ++f)
+    halves.of_face.push_back(f % 10 < 5 ? 0 : 1);
+  grid.quads.mesh.attributes.labels = {{"o", std::vector<Index>(100, 0), {"all"}}, halves};
+  for (const Vec3& p : grid.mesh.positions) {
+    grid.mesh.attributes.colour.push_back(support::linear_colour(p));
+  }
+  PrincipalField field = grid.field(0);
+  field.guides = {{0, 1}, {7}, {Vec3(0.2, 0.3, 0.5)}, {Vec3(0.4, 0.1, 0)}};
+  const ErrorMap errors = measure_cells(ComparedSurfaces(grid.mesh, grid.quads));
+  Blocks blocks;
+  const report::ResultEdges edges = report::measure_edges(grid.mesh, &field, grid.quads);
+  const Json result = report::result_scene(grid.quads.provenance, edges, errors, blocks);
+  const Json surface = report::surface_scene(grid.mesh, &field, report::kMostFaces, blocks);
+  const auto bytes = from_base64(blocks.base64());
+
+  const auto colours = decode<std::array<std::uint8_t, 4>>(result.at("colours"), bytes);
+  for (std::size_t v = 0; v < colours.size(); ++v) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double wanted = std::clamp(grid.quads.mesh.attributes.colour[v][k], 0.0, 1.0);
+      EXPECT_NEAR(colours[v][k] / 255.0, wanted, 0.501 / 255);
     }
   }
-  SilentObserver observer;
-  const TriMesh mesh = import_mesh(soup, {}, observer).mesh;
+  EXPECT_EQ(decode<std::uint32_t>(surface.at("colours"), bytes).size(), grid.mesh.positions.size());
+  // The kind that tells more apart.
+  EXPECT_EQ(result.at("labels").at("kind"), "g");
+  EXPECT_EQ(decode<Index>(result.at("labels").at("of_face"), bytes), halves.of_face);
+
+  const auto ends = decode<GridRow>(surface.at("guides").at("ends"), bytes);
+  ASSERT_EQ(ends.size(), 2u);
+  Vec3 middle = Vec3::Zero();
+  for (int i = 0; i < 3; ++i) {
+    middle += field.guides.barycentric[0][i] * grid.mesh.positions[grid.mesh.faces[7][i]];
+  }
+  const double step = surface.at("step");
+  EXPECT_LE((place(surface, ends[0]) - (middle - Vec3(0.2, 0.05, 0))).norm(), step);
+  EXPECT_LE((place(surface, ends[1]) - (middle + Vec3(0.2, 0.05, 0))).norm(), step);
+}
+
+TEST(ReportScene, HistogramsOfARegularGrid) {
+  const FlatGrid grid;
+  const auto& [mesh, quads] = grid;
   const ErrorMap errors = measure_cells(ComparedSurfaces(mesh, quads));
-  const auto histograms = report::measure_histograms(mesh, nullptr, quads, errors);
+  const auto histograms = report::measure_histograms(report::measure_edges(mesh, nullptr, quads),
+                                                     errors, mesh.diagonal);
   std::map<std::string, report::Histogram> by_name;
   for (const auto& histogram : histograms) by_name.emplace(histogram.name, histogram);
   EXPECT_EQ(by_name.size(), 4u);  // no alignment without a field
