@@ -123,6 +123,7 @@ int check_file(const std::string& path, std::int64_t max_sides) {
 
 void add_info_command(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand("info", "Say what a mesh file or an artifact holds.");
+  command->footer("Examples:\n  strake info scan.ply\n  strake info work/field.hdf");
   const auto path = std::make_shared<std::string>();
   command->add_option("file", *path, "mesh file or artifact")->type_name("FILE")->required();
   command->callback([path, &chosen] { chosen = [path] { return print_info(*path); }; });
@@ -131,6 +132,7 @@ void add_info_command(CLI::App& app, Action& chosen) {
 void add_check_command(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand(
       "check", "Check that an artifact is undamaged, or that a mesh is an oriented manifold.");
+  command->footer("Examples:\n  strake check quads.obj\n  strake check work/field.hdf");
   const auto path = std::make_shared<std::string>();
   const auto max_sides = std::make_shared<std::int64_t>(0);
   command->add_option("file", *path, "mesh file or artifact")->type_name("FILE")->required();

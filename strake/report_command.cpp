@@ -69,6 +69,9 @@ int make_report(const ReportCommand& command) {
 void add_report_command(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand(
       "report", "Show runs in one HTML file: surfaces, curvature, lines, results, figures.");
+  command->footer(
+      "Examples:\n  strake report work -o report.html\n  strake report fine coarse -o "
+      "compared.html\n  strake report --pipeline pipeline.yaml part/fine -o report.html");
   const auto wanted = std::make_shared<ReportCommand>();
   command
       ->add_option(

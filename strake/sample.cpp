@@ -29,6 +29,9 @@ int make(const SampleCommand& command) {
 
 void add_sample_command(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand("sample", "Make a surface to try things on.");
+  command->footer(
+      "Examples:\n  strake sample part -o part.ply\n  strake sample torus --faces 10000 -o "
+      "torus.obj");
   const auto sample = std::make_shared<SampleCommand>();
   std::string kinds;
   for (const std::string& name : sample_names()) kinds += (kinds.empty() ? "" : "|") + name;

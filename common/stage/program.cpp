@@ -155,8 +155,9 @@ const CLI::App& chosen_command(const CLI::App& app) {
   return commands.empty() ? app : *commands.front();
 }
 
-/// A question for the first word that is not known, where it looks like one that is; or "".
-std::string what_was_meant(const CLI::App& app) {
+/// What is wrong with the first word that looks like an option, or should be a command, and is
+/// none; or "".
+std::string unknown_word(const CLI::App& app) {
   const CLI::App& command = chosen_command(app);
   std::vector<std::string> known;
   for (const CommandWord& option : command_tree(command).options()) {
@@ -166,9 +167,13 @@ std::string what_was_meant(const CLI::App& app) {
     for (const CommandTree& each : command_tree(app).commands) known.push_back(each.name);
   }
   constexpr bool kOfCommandsToo = true;
+  const bool lacks_command = &command == &app && !command_tree(app).commands.empty();
   for (const std::string& word : app.remaining(kOfCommandsToo)) {
-    const std::string nearest = nearest_word(word.substr(0, word.find('=')), known);
-    if (!nearest.empty()) return fmt::format("did you mean '{}' instead of '{}'?", nearest, word);
+    if (word.front() != '-' && !lacks_command) continue;
+    const std::string name = word.substr(0, word.find('='));
+    const std::string nearest = nearest_word(name, known);
+    return fmt::format("there is no {} '{}'{}", word.front() == '-' ? "option" : "command", name,
+                       nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest));
   }
   return "";
 }
@@ -274,9 +279,10 @@ std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv) {
     return std::nullopt;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // help or version
-    const std::string meant = what_was_meant(app);
-    throw UsageError(std::string(error.what()) + (meant.empty() ? "" : "; " + meant) + " (see " +
-                     app.get_name() + " --help)");
+    const std::string unknown = unknown_word(app);
+    const CLI::App& command = chosen_command(app);
+    throw UsageError((unknown.empty() ? error.what() : unknown) + " (see " + app.get_name() +
+                     (&command == &app ? "" : " " + command.get_name()) + " --help)");
   }
 }
 

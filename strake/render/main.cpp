@@ -123,6 +123,10 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", strake::version_text("strake-render"));
     strake::Arguments arguments;
     strake::add_arguments(app, arguments);
+    app.footer(
+        "Examples:\n"
+        "  strake-render quads.obj -o quads.png --edges\n"
+        "  strake-render scan.ply -o scan.png --azimuth 60 --zoom 2 --size 800x600");
     if (const auto exit_code = strake::parse_command_line(app, argc, argv)) return *exit_code;
     strake::run(std::move(arguments));
     return 0;

@@ -143,6 +143,9 @@ int GcCommand::run() const {
 
 void add_gc_command(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand("gc", "Remove results from the store.");
+  command->footer(
+      "Examples:\n  strake gc --unreachable --dry-run\n  strake gc --older-than 30d --max-size "
+      "50GB");
   const auto gc = std::make_shared<GcCommand>();
   gc->pipeline.add_file_to(*command);
   command->add_flag("--unreachable", gc->unreachable,

@@ -302,6 +302,9 @@ int RunCommand::run() {
 void add_run_command(CLI::App& app, Action& chosen) {
   CLI::App* command =
       app.add_subcommand("run", "Build what a pipeline file describes, and only what is stale.");
+  command->footer(
+      "Examples:\n  strake run\n  strake run part/fine --explain\n  strake run --set trace.seed=7 "
+      "--until mesh\n  strake run --engine slurm --wait");
   const auto run = std::make_shared<RunCommand>();
   command->add_option("--engine", run->engine, "What runs the steps: this machine, or a cluster.")
       ->check(CLI::IsMember({kLocal, kSlurm}))

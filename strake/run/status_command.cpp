@@ -101,6 +101,7 @@ int StatusCommand::run() const {
 void add_status_command(CLI::App& app, Action& chosen) {
   CLI::App* command =
       app.add_subcommand("status", "Say what of a pipeline is in the store and what is stale.");
+  command->footer("Examples:\n  strake status\n  strake status part --steps");
   const auto status = std::make_shared<StatusCommand>();
   status->pipeline.add_to(*command);
   command->add_flag("--steps", status->steps, "A line per step, with the file of its result.");
@@ -110,6 +111,7 @@ void add_status_command(CLI::App& app, Action& chosen) {
 
 void add_schema_command(CLI::App& app, Action& chosen) {
   app.add_subcommand("schema", "Print the JSON Schema of pipeline files, for editors.")
+      ->footer("Example:\n  strake schema > pipeline.schema.json")
       ->callback([&chosen] {
         chosen = [] {
           std::fputs(pipeline_schema().c_str(), stdout);

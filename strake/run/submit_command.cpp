@@ -9,6 +9,7 @@ namespace strake {
 void add_submit_command(CLI::App& app, Action& chosen) {
   CLI::App* command =
       app.add_subcommand("submit", "Like 'run --engine slurm'; or only write the job scripts.");
+  command->footer("Examples:\n  strake submit\n  strake submit --script-only -o job-scripts");
   const auto run = std::make_shared<RunCommand>();
   run->engine = kSlurm;
   run->add_common_options(*command);

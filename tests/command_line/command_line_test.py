@@ -156,13 +156,26 @@ class Suggestions(unittest.TestCase):
                 (("strake-tensor", "mesh.hdf", "-o", "t.hdf", "--radios", "1%"), "--radius")):
             code, message = said(*words)
             self.assertEqual(code, 2, message)
-            self.assertIn(f"did you mean '{meant}", message)
+            self.assertIn(f"did you mean '{meant}'?", message)
+            self.assertRegex(message, r"there is no (option '--|command ')")
 
     def test_nothing_near_is_not_guessed(self):
         for words in (("strake", "chocolate"), ("strake-tensor", "m.hdf", "-o", "t.hdf", "--chocolate")):
             code, message = said(*words)
             self.assertEqual(code, 2)
             self.assertNotIn("did you mean", message)
+            self.assertIn("chocolate", message)
+
+
+class Help(unittest.TestCase):
+    def test_teaches_by_example(self):
+        commands = re.findall(r"^  (\w+) ", output_of(BIN / "strake", "--help").split("Subcommands:")[1]
+                              .split("Examples:")[0], re.MULTILINE)
+        self.assertIn("remesh", commands)
+        for words in [(program,) for program in PROGRAMS] + [("strake", command) for command in commands]:
+            shown = output_of(BIN / words[0], *words[1:], "--help")
+            if words != ("strake", "step"):  # for engines only
+                self.assertRegex(shown, r"Examples?:\n  " + " ".join(words) + r"\b", words)
 
 
 class Version(unittest.TestCase):
