@@ -54,6 +54,15 @@ Camera::Camera(std::span<const Vec3> points, const View& view, int width, int he
   }
 }
 
+Camera::Camera(const Vec3& position, const Vec3& target, double fov_deg, int width, int height)
+    : position_(position), middle_(Vec2::Zero()), half_size_(width / 2.0, height / 2.0) {
+  backward_ = (position - target).normalized();
+  right_ = Vec3::UnitY().cross(backward_);
+  right_ = right_.norm() > 1e-9 ? right_.normalized() : Vec3::UnitX();
+  up_ = backward_.cross(right_);
+  tangent_ = std::tan(fov_deg / 2 * std::numbers::pi / 180) / half_size_.y();
+}
+
 Vec3 Camera::direction(double x, double y) const {
   const double u = middle_.x() + (x - half_size_.x()) * tangent_;
   const double v = middle_.y() - (y - half_size_.y()) * tangent_;

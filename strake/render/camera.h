@@ -22,6 +22,9 @@ class Camera {
   /// \param points  at least one, in any frame; all of them come to lie in the picture at zoom 1
   Camera(std::span<const Vec3> points, const View& view, int width, int height);
 
+  /// Looks from one point at another, with y up. \param fov_deg  of the picture's height
+  Camera(const Vec3& position, const Vec3& target, double fov_deg, int width, int height);
+
   /// Unit direction of the ray through a place in the picture, in pixels from the top left corner.
   [[nodiscard]] Vec3 direction(double x, double y) const;
   /// Place in the picture of a point in front of the camera, pixels.

@@ -34,6 +34,11 @@ struct Palette {
   Vec3 minimum = srgb(0.13, 0.33, 0.80);
   Vec3 maximum = srgb(0.82, 0.18, 0.16);
   Vec3 feature = srgb(0.08, 0.08, 0.08);
+  Vec3 boundary = srgb(0.06, 0.62, 0.46);
+  Vec3 guide = srgb(1.0, 0.48, 0.0);
+  Vec3 end = srgb(0.88, 0.63, 0.0);
+  Vec3 cut = srgb(0.85, 0.78, 0.65);
+  Vec3 hatch = srgb(0.63, 0.55, 0.42);
 };
 
 /// A value in [0, 1) that depends on nothing but its arguments (splitmix64).
@@ -63,6 +68,8 @@ class Painter {
       : scene_(scene), camera_(camera), groups_(groups), options_(options) {
     const PolyMesh& mesh = scene.mesh();
     for (Index f = 0; f < mesh.face_count() && !tinted_; ++f) tinted_ = mesh.face(f).size() != 3;
+    for (const Vec3& c : options.face_colours) colours_.push_back(srgb(c.x(), c.y(), c.z()));
+    fills_cut_ = options.section && scene.is_closed();
     if (!options.edges) return;
     projected_.resize(mesh.positions.size());
     tbb::parallel_for(std::size_t{0}, projected_.size(),
@@ -86,32 +93,65 @@ class Painter {
  private:
   [[nodiscard]] Vec3 sample(double px, double py, std::uint64_t seed, int number) const {
     const Vec3 direction = camera_.direction(px, py);
-    const Hit hit = scene_.trace(camera_.position(), direction);
-    if (hit.kind == Hit::Kind::nothing) return Vec3::Ones();
+    const std::optional<Hit> seen = first_hit(direction);
+    if (!seen) return Vec3::Ones();
+    const Hit& hit = *seen;
     if (hit.kind == Hit::Kind::line) {
       const double facing = std::abs(hit.geometric_normal.dot(direction));
       return line_colour(groups_[hit.line]) * (0.7 + 0.3 * facing);
     }
     const bool is_back = hit.geometric_normal.dot(direction) > 0;
+    // From beyond the section the inside of a closed surface is seen only through the cut.
+    if (is_back && fills_cut_ && height(camera_.position()) > 0) {
+      const double stripe = std::fmod(px + py, 9.0);
+      return stripe < 1.5 ? palette_.hatch : palette_.cut;
+    }
     const double side = is_back ? -1 : 1;
     Vec3 normal = side * hit.shading_normal;
     // An interpolated normal may turn away from the viewer at silhouettes; keep it edge-on.
     const double away = normal.dot(direction);
     if (away > -0.02) normal = (normal - (away + 0.02) * direction).normalized();
     const Vec3 surface = is_back ? palette_.back : face_colour(hit.face);
-    const double open = openness(hit.position, side * hit.geometric_normal, normal, seed, number);
+    const double open = options_.section ? 1
+                                         : openness(hit.position, side * hit.geometric_normal,
+                                                    normal, seed, number);
     const Vec3 lit = shade(surface, normal, -direction, open);
     const double ink = options_.edges ? edge_ink(hit.face, Vec2(px, py)) : 0.0;
     return lit + ink * (palette_.edge - lit);
   }
 
+  /// How far a point lies beyond the section.
+  [[nodiscard]] double height(const Vec3& p) const {
+    const Section& section = *options_.section;
+    return (p[section.axis] - section.place) * (section.is_flipped ? -1 : 1);
+  }
+
+  /// The first thing a ray from the camera meets that is not cut away.
+  [[nodiscard]] std::optional<Hit> first_hit(const Vec3& direction) const {
+    Vec3 origin = camera_.position();
+    const double above = options_.section ? height(origin) : -1;
+    if (above > 0) {
+      const double falls = above - height(origin + direction);
+      if (falls <= 0) return std::nullopt;
+      origin += above / falls * direction;
+    }
+    const Hit hit = scene_.trace(origin, direction);
+    const bool is_cut = options_.section && above <= 0 && height(hit.position) > 0;
+    if (hit.kind == Hit::Kind::nothing || is_cut) return std::nullopt;
+    return hit;
+  }
+
   [[nodiscard]] const Vec3& line_colour(const std::string& group) const {
     if (group == "min") return palette_.minimum;
     if (group == "max") return palette_.maximum;
+    if (group == "boundary") return palette_.boundary;
+    if (group == "guide") return palette_.guide;
+    if (group == "end") return palette_.end;
     return palette_.feature;
   }
 
   [[nodiscard]] const Vec3& face_colour(Index f) const {
+    if (!colours_.empty()) return colours_[f];
     const std::size_t sides = scene_.mesh().face(f).size();
     if (!tinted_ || sides == 4) return palette_.plain;
     if (sides == 3) return palette_.triangle;
@@ -178,6 +218,8 @@ class Painter {
   const DrawOptions& options_;
   Palette palette_;
   std::vector<Vec2> projected_;  // [V] pixels
+  std::vector<Vec3> colours_;    // [F] linear, or empty
+  bool fills_cut_ = false;
   bool tinted_ = false;
 };
 

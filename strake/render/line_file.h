@@ -14,6 +14,7 @@ struct Polylines {
   struct Line {
     std::vector<Index> points;
     std::string group;
+    double width = 1;  ///< beside other lines
   };
   std::vector<Line> lines;
 };

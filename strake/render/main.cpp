@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,6 +17,7 @@
 #include "strake/render/image.h"
 #include "strake/render/line_file.h"
 #include "strake/render/scene.h"
+#include "strake/render/shown_run.h"
 
 namespace strake {
 namespace {
@@ -27,6 +29,10 @@ struct Arguments {
   std::string size = "1200x900";
   std::string target;
   std::string up = "y";
+  std::string view_address;
+  std::string section;
+  std::string layers;
+  RunView shown;
   double line_width = 2.5;
   bool flat = false;
   View view;
@@ -34,7 +40,9 @@ struct Arguments {
 };
 
 void add_arguments(CLI::App& app, Arguments& arguments) {
-  app.add_option("mesh", arguments.mesh, "Mesh file: OBJ, PLY, OFF or STL")
+  app.add_option(
+         "mesh", arguments.mesh,
+         "Mesh file: OBJ, PLY, OFF or STL; or a run: a folder that strake remesh --keep made")
       ->type_name("FILE")
       ->required();
   app.add_option("-o,--output", arguments.output, "PNG file to write")
@@ -71,6 +79,29 @@ void add_arguments(CLI::App& app, Arguments& arguments) {
       ->capture_default_str();
 }
 
+/// What of a run is shown; options of their own go before those in the address of a view.
+void add_run_arguments(CLI::App& app, Arguments& arguments) {
+  CLI::App* group = app.add_option_group("Of a run");
+  group->add_option("--surface", arguments.shown.surface, "input or result")->capture_default_str();
+  group
+      ->add_option("--colour", arguments.shown.colour,
+                   "of the input: plain, k_min, k_max, confidence, colours; of the result: sides, "
+                   "distance, alignment, colours, plain")
+      ->capture_default_str();
+  group->add_option("--layers", arguments.layers,
+                    "joined by +: edges, triangles, minimum, maximum, boundary, feature, ends, "
+                    "seeds, principal, cross, guides (default: edges)");
+  group
+      ->add_option("--section", arguments.section,
+                   "Plane that cuts: x, y or z, and a share of the size: y,0.5")
+      ->type_name("AXIS,PLACE");
+  group
+      ->add_option("--view", arguments.view_address,
+                   "All of that and the camera from the address of a view in the run's report")
+      ->type_name("ADDRESS")
+      ->excludes("--surface", "--colour", "--layers", "--section");
+}
+
 void interpret(Arguments& arguments) {
   char rest = 0;
   DrawOptions& size = arguments.draw;
@@ -78,6 +109,15 @@ void interpret(Arguments& arguments) {
   if (std::sscanf(arguments.size.c_str(), "%dx%d%c", &size.width, &size.height, &rest) != 2 ||
       size.width < 1 || size.height < 1 || size.width > kLargest || size.height > kLargest) {
     throw UsageError("--size '" + arguments.size + "': expected WIDTHxHEIGHT, each 1 to 16384");
+  }
+  if (!arguments.view_address.empty()) {
+    arguments.shown = read_view(arguments.view_address);
+  } else {
+    std::string address = "#a=0," + arguments.shown.surface + "," + arguments.shown.colour + "," +
+                          arguments.shown.colour + "," +
+                          (arguments.layers.empty() ? "edges" : arguments.layers);
+    if (!arguments.section.empty()) address += "&section=" + arguments.section;
+    arguments.shown = read_view(address);
   }
   arguments.view.z_up = arguments.up == "z";
   if (arguments.target.empty()) return;
@@ -89,8 +129,40 @@ void interpret(Arguments& arguments) {
   arguments.view.target = p;
 }
 
-void run(Arguments arguments) {
-  interpret(arguments);
+/// Groups of lines, which are added to the scene.
+std::vector<std::string> add_lines(const Polylines& lines, double radius, Scene& scene) {
+  std::vector<std::string> groups;
+  for (const Polylines::Line& line : lines.lines) groups.push_back(line.group);
+  if (!groups.empty()) scene.add_lines(lines, radius);
+  return groups;
+}
+
+Camera camera_on(const Scene& scene, const View& view, const DrawOptions& picture) {
+  std::vector<Vec3> used;
+  for (const Index v : scene.mesh().corners) used.push_back(scene.mesh().positions[v]);
+  return Camera(used, view, picture.width, picture.height);
+}
+
+constexpr double kReportFieldOfView = 32;  // of viewer/src/stage.js
+
+void draw_run(const Arguments& arguments) {
+  ShownRun shown = show_run(report::read_run(arguments.mesh), arguments.shown);
+  DrawOptions picture = arguments.draw;
+  picture.face_colours = std::move(shown.face_colours);
+  picture.section = arguments.shown.section;
+  picture.edges = shown.has_edges;
+  Scene scene(std::move(shown.mesh), arguments.mesh, arguments.flat, shown.frame);
+  const auto& from = arguments.shown.camera;
+  const Camera camera =
+      from ? Camera(from->first, from->second, kReportFieldOfView, picture.width, picture.height)
+           : camera_on(scene, arguments.view, picture);
+  const double radius = arguments.line_width / 2 * camera.pixel_size(Vec3::Zero());
+  const std::vector<std::string> groups = add_lines(shown.lines, radius, scene);
+  scene.commit();
+  write_png(draw(scene, camera, groups, picture), arguments.output);
+}
+
+void draw_file(const Arguments& arguments) {
   ReadReport read;
   PolyMesh mesh = read_mesh(arguments.mesh, read);
   for (const std::string& warning : read.warnings()) {
@@ -99,19 +171,22 @@ void run(Arguments arguments) {
   Scene scene(std::move(mesh), arguments.mesh, arguments.flat);
   View view = arguments.view;
   if (view.target) view.target = scene.place(*view.target);
-  std::vector<Vec3> used;
-  for (const Index v : scene.mesh().corners) used.push_back(scene.mesh().positions[v]);
-  const Camera camera(used, view, arguments.draw.width, arguments.draw.height);
-
-  std::vector<std::string> groups;
-  if (!arguments.lines.empty()) {
-    const Polylines lines = read_polylines(arguments.lines);
-    for (const Polylines::Line& line : lines.lines) groups.push_back(line.group);
-    const double pixel = camera.pixel_size(view.target.value_or(Vec3::Zero()));
-    scene.add_lines(lines, arguments.line_width / 2 * pixel);
-  }
+  const Camera camera = camera_on(scene, view, arguments.draw);
+  const double radius =
+      arguments.line_width / 2 * camera.pixel_size(view.target.value_or(Vec3::Zero()));
+  const Polylines lines = arguments.lines.empty() ? Polylines{} : read_polylines(arguments.lines);
+  const std::vector<std::string> groups = add_lines(lines, radius, scene);
   scene.commit();
   write_png(draw(scene, camera, groups, arguments.draw), arguments.output);
+}
+
+void run(Arguments arguments) {
+  interpret(arguments);
+  if (std::filesystem::is_directory(arguments.mesh)) {
+    draw_run(arguments);
+  } else {
+    draw_file(arguments);
+  }
 }
 
 }  // namespace
@@ -123,9 +198,12 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", strake::version_text("strake-render"));
     strake::Arguments arguments;
     strake::add_arguments(app, arguments);
+    strake::add_run_arguments(app, arguments);
     app.footer(
         "Examples:\n"
         "  strake-render quads.obj -o quads.png --edges\n"
+        "  strake-render work -o curvature.png --surface input --colour k_max --layers "
+        "minimum+maximum\n"
         "  strake-render scan.ply -o scan.png --azimuth 60 --zoom 2 --size 800x600");
     if (const auto exit_code = strake::parse_command_line(app, argc, argv)) return *exit_code;
     strake::run(std::move(arguments));

@@ -9,6 +9,7 @@
 
 #include "common/core/error.h"
 #include "common/geometry/poly_topology/face_shape.h"
+#include "common/geometry/poly_topology/poly_edges.h"
 
 namespace strake {
 namespace {
@@ -99,8 +100,9 @@ RTCRay make_ray(const Vec3& origin, const Vec3& direction, double reach, unsigne
 
 }  // namespace
 
-Scene::Scene(PolyMesh mesh, const std::string& name, bool flat) : mesh_(std::move(mesh)) {
-  normalise(name);
+Scene::Scene(PolyMesh mesh, const std::string& name, bool flat, const std::optional<Frame>& frame)
+    : mesh_(std::move(mesh)) {
+  normalise(name, frame);
   device_.reset(rtcNewDevice(nullptr));
   if (!device_) throw Error(ExitCode::internal, "the ray tracer (Embree) does not start");
   scene_.reset(rtcNewScene(device_.get()));
@@ -110,14 +112,14 @@ Scene::Scene(PolyMesh mesh, const std::string& name, bool flat) : mesh_(std::mov
 
 Scene::~Scene() = default;
 
-void Scene::normalise(const std::string& name) {
+void Scene::normalise(const std::string& name, const std::optional<Frame>& frame) {
   Eigen::AlignedBox3d box;
   for (const Index v : mesh_.corners) box.extend(mesh_.positions[v]);
   if (box.isEmpty() || !(box.diagonal().norm() > 0) || !box.diagonal().allFinite()) {
     throw InputError("'" + name + "' has no face of finite, positive size: nothing to draw");
   }
-  centre_ = box.center();
-  scale_ = 1 / box.diagonal().norm();
+  centre_ = frame ? frame->centre : box.center();
+  scale_ = 1 / (frame ? frame->diagonal : box.diagonal().norm());
   for (Vec3& p : mesh_.positions) p = place(p);
 }
 
@@ -164,7 +166,7 @@ void Scene::add_lines(const Polylines& lines, double radius) {
     for (std::size_t i = 0; i < line.size(); ++i, ++point) {
       const Vec3 p = place(lines.positions[line[i]]);
       for (int k = 0; k < 3; ++k) points[4 * point + k] = static_cast<float>(p[k]);
-      points[4 * point + 3] = static_cast<float>(radius);
+      points[4 * point + 3] = static_cast<float>(radius * lines.lines[l].width);
       if (i + 1 == line.size()) continue;
       segments[segment_line_.size()] = point;
       segment_line_.push_back(static_cast<Index>(l));
@@ -178,6 +180,14 @@ void Scene::attach(RTCGeometry geometry, unsigned id, unsigned mask) {
   rtcCommitGeometry(geometry);
   rtcAttachGeometryByID(scene_.get(), geometry, id);
   rtcReleaseGeometry(geometry);
+}
+
+bool Scene::is_closed() const {
+  const PolyEdges edges = collect_edges(mesh_);
+  for (Index e = 0; e < edges.edge_count(); ++e) {
+    if (edges.sides_of(e).size() != 2) return false;
+  }
+  return true;
 }
 
 void Scene::commit() { rtcCommitScene(scene_.get()); }

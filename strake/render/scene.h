@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -25,6 +26,19 @@ struct Hit {
   Index line = kNone;     ///< of the line set, lines only
 };
 
+/// What is moved and scaled to be centred and of size 1.
+struct Frame {
+  Vec3 centre = Vec3::Zero();
+  double diagonal = 1;
+};
+
+/// A plane across an axis of the scene; what lies beyond it, or before it, is left out.
+struct Section {
+  int axis = 0;      ///< 0, 1, 2
+  double place = 0;  ///< in the scene's frame
+  bool is_flipped = false;
+};
+
 /// A polygon mesh with lines on it, ready for rays.
 ///
 /// Everything is moved and scaled so that the mesh's bounding box is centred and its diagonal is 1.
@@ -33,7 +47,8 @@ class Scene {
   /// \param name  of the mesh, for messages
   /// \param flat  one normal per face instead of normals that are averaged over smooth vertices
   /// \throw InputError where the mesh has no face or no extent
-  Scene(PolyMesh mesh, const std::string& name, bool flat);
+  /// \param frame  of something else that the mesh is to be shown like; default: its bounding box
+  Scene(PolyMesh mesh, const std::string& name, bool flat, const std::optional<Frame>& frame = {});
   ~Scene();
 
   /// Adds polylines (model coordinates) as thin tubes; once, before `commit`.
@@ -45,12 +60,14 @@ class Scene {
   /// Whether the surface (not a line) is met within `reach`.
   [[nodiscard]] bool is_blocked(const Vec3& origin, const Vec3& direction, double reach) const;
 
+  /// Whether every edge has two faces: a cut through it has an inside.
+  [[nodiscard]] bool is_closed() const;
   [[nodiscard]] const PolyMesh& mesh() const { return mesh_; }
   /// Moves a point from model coordinates into the scene's.
   [[nodiscard]] Vec3 place(const Vec3& point) const { return scale_ * (point - centre_); }
 
  private:
-  void normalise(const std::string& name);
+  void normalise(const std::string& name, const std::optional<Frame>& frame);
   void build_surface(bool flat);
   void attach(RTCGeometry geometry, unsigned id, unsigned mask);
 

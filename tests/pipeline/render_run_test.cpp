@@ -1,0 +1,53 @@
+#include <filesystem>
+#include <set>
+
+#include "tests/pipeline/run_program.h"
+
+namespace strake::pipeline_test {
+namespace {
+
+using RenderRun = ProgramTest;
+
+TEST_F(RenderRun, DrawsEachLayerOfARunAndAgreesWithTheAddressOfAView) {
+  must("strake sample part -o part.ply --faces 2000");
+  must("strake remesh part.ply -q -o part.obj --vertices 400 --keep run");
+  const auto picture = [&](const std::string& options) {
+    must("strake-render run -o run.png --size 120x90 --samples 1 " + options);
+    return bytes("run.png");
+  };
+  std::set<std::string> seen;
+  for (const std::string options :
+       {"--layers edges", "--colour plain", "--colour distance", "--colour alignment",
+        "--section y,0.5", "--section y,0.5,flipped", "--layers triangles",
+        "--surface input --colour plain --layers minimum",
+        "--surface input --colour plain --layers maximum",
+        "--surface input --colour plain --layers feature",
+        "--surface input --colour plain --layers ends",
+        "--surface input --colour plain --layers seeds",
+        "--surface input --colour plain --layers principal",
+        "--surface input --colour plain --layers cross",
+        "--surface input --colour plain --layers edges", "--surface input --colour k_min",
+        "--surface input --colour k_max", "--surface input --colour confidence"}) {
+    EXPECT_TRUE(seen.insert(picture(options)).second) << options << " looks like another one";
+  }
+  EXPECT_EQ(
+      picture("--surface input --colour k_max --layers minimum+edges --section x,0.4"),
+      picture(
+          "--view 'report.html#tab=surface&a=0,input,k_max,sides,minimum+edges&section=x,0.4'"));
+  EXPECT_EQ(picture("--view '#camera=0.5,0.4,0.9,0,0,0'"),
+            picture("--view '#camera=0.5,0.4,0.9,0,0,0'"));
+  EXPECT_NE(picture("--view '#camera=0.5,0.4,0.9,0,0,0'"),
+            picture("--view '#camera=-0.5,0.4,0.9,0,0,0'"));
+
+  for (const std::string wrong :
+       {"--colour k_max", "--surface moon", "--layers edges+moon", "--section w,1",
+        "--view '#camera=1,2'", "--surface input --colour colours"}) {
+    EXPECT_EQ(run("strake-render run -o wrong.png " + wrong).exit_code, 2) << wrong;
+  }
+  std::filesystem::create_directory(file("empty"));
+  must_fail(3, "strake-render empty -o wrong.png", "no artifact of kind 'quads'");
+  EXPECT_FALSE(std::filesystem::exists(file("wrong.png")));
+}
+
+}  // namespace
+}  // namespace strake::pipeline_test
