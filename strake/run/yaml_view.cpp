@@ -1,9 +1,11 @@
 #include "strake/run/yaml_view.h"
 
 #include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
 
 #include <algorithm>
 #include <fstream>
+#include <optional>
 
 #include "common/core/error.h"
 #include "common/core/suggest.h"
@@ -14,6 +16,34 @@ namespace {
 /// What the parser has no mark for is an empty file, or an empty document.
 Place place_of(const std::filesystem::path& file, const YAML::Mark& mark) {
   return {file, std::max(mark.line, 0) + 1, std::max(mark.column, 0) + 1};
+}
+
+/// Notes where documents begin.
+class DocumentStarts : public YAML::EventHandler {
+ public:
+  YAML::Mark last;
+
+  void OnDocumentStart(const YAML::Mark& mark) override { last = mark; }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& /*mark*/, YAML::anchor_t /*anchor*/) override {}
+  void OnAlias(const YAML::Mark& /*mark*/, YAML::anchor_t /*anchor*/) override {}
+  void OnScalar(const YAML::Mark& /*mark*/, const std::string& /*tag*/, YAML::anchor_t /*anchor*/,
+                const std::string& /*value*/) override {}
+  void OnSequenceStart(const YAML::Mark& /*mark*/, const std::string& /*tag*/,
+                       YAML::anchor_t /*anchor*/, YAML::EmitterStyle::value /*style*/) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark& /*mark*/, const std::string& /*tag*/, YAML::anchor_t /*anchor*/,
+                  YAML::EmitterStyle::value /*style*/) override {}
+  void OnMapEnd() override {}
+};
+
+/// Where a second document begins. `YAML::LoadAll` finds documents without end where a comma stands
+/// outside of everything.
+std::optional<YAML::Mark> second_document(std::istream& stream) {
+  DocumentStarts starts;
+  YAML::Parser parser(stream);
+  const bool is_there = parser.HandleNextDocument(starts) && parser.HandleNextDocument(starts);
+  return is_there ? std::optional(starts.last) : std::nullopt;
 }
 
 }  // namespace
@@ -35,11 +65,12 @@ YamlView YamlView::load(const std::filesystem::path& file) {
                      "--help'");
   }
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(stream);
-    if (documents.size() > 1) {
-      place_of(file, documents[1].Mark()).fail("a second document begins; a pipeline is one");
+    if (const std::optional<YAML::Mark> second = second_document(stream)) {
+      place_of(file, *second).fail("a second document begins; a pipeline is one");
     }
-    const YAML::Node top = documents.empty() ? YAML::Node() : documents.front();
+    stream.clear();
+    stream.seekg(0);
+    const YAML::Node top = YAML::Load(stream);
     return {place_of(file, top.Mark()), top};
   } catch (const YAML::Exception& error) {
     place_of(file, error.mark).fail("no YAML: " + error.msg);

@@ -98,28 +98,27 @@ void replace(FuzzedDataProvider& data, hid_t file, const std::string& name) {
       {H5T_STD_I32LE, H5T_IEEE_F64LE, H5T_STD_U8LE, H5T_STD_I64LE, H5T_STD_I32BE, text});
   const int rank = data.ConsumeIntegralInRange(0, 3);
   std::array<hsize_t, 3> size = {1, 1, 1};
+  const bool in_chunks = data.ConsumeBool();  // of which there can be only so many
   for (hsize_t& n : size) {
-    n = data.PickValueInArray<hsize_t>({0, 1, 2, 3, 40, 600, 1U << 20, hsize_t{1} << 45});
+    n = data.PickValueInArray<hsize_t>({0, 1, 2, 3, 40, in_chunks ? 5U : hsize_t{1} << 40});
   }
   const hid_t space = H5Screate_simple(rank, size.data(), nullptr);
   const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
   const std::array<hsize_t, 3> chunk = {1, 1, 1};
-  switch (data.ConsumeIntegralInRange(0, 4)) {
-    case 0:
-      H5Pset_external(creation, "elsewhere", 0, H5F_UNLIMITED);
-      break;
-    case 1:
-      H5Pset_chunk(creation, rank, chunk.data());
-      H5Pset_deflate(creation, 9);
-      break;
-    case 2:
-      H5Pset_alloc_time(creation, H5D_ALLOC_TIME_LATE);
-      break;
-    case 3:
-      H5Pset_virtual(creation, space, "elsewhere", "there", space);
-      break;
-    default:
-      break;
+  if (in_chunks) {
+    H5Pset_chunk(creation, rank, chunk.data());
+    if (data.ConsumeBool()) H5Pset_deflate(creation, 9);
+  } else {
+    switch (data.ConsumeIntegralInRange(0, 2)) {
+      case 0:
+        H5Pset_external(creation, "elsewhere", 0, H5F_UNLIMITED);
+        break;
+      case 1:
+        H5Pset_virtual(creation, space, "elsewhere", "there", space);
+        break;
+      default:  // never written
+        break;
+    }
   }
   const hid_t dataset =
       H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT);

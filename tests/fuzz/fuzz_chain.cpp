@@ -131,6 +131,7 @@ strake::RemeshOptions make_options(FuzzedDataProvider& data) {
       options.trace.max_spacing = strake::Length{0.2, true};
   }
   options.import.feature_angle_deg = data.PickValueInArray({10.0, 40.0, 180.0});
+  options.evaluate.samples = 1000;
   options.mesh.pure_quads = data.ConsumeIntegralInRange(0, 7) == 0;
   return options;
 }
