@@ -1,6 +1,7 @@
 #include "common/artifact/atomic_file.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <fstream>
@@ -89,6 +90,33 @@ TEST_F(AtomicFileTest, RefusesFoldersAndMissingFolders) {
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("missing"), std::string::npos) << error.what();
   }
+}
+
+TEST_F(AtomicFileTest, SaysThatItCannotBePutIntoPlace) {
+  const fs::path target = folder_ / "out.bin";
+  {
+    AtomicFile file(target);
+    write(file.temporary(), "new");
+    fs::create_directory(target);  // somebody else takes the name
+    EXPECT_THROW(file.commit(), InputError);
+  }
+  EXPECT_TRUE(fs::is_directory(target));
+  EXPECT_EQ(entries(), 1);
+}
+
+/// In a process of its own: nobody writes any more after that.
+TEST_F(AtomicFileTest, AbandoningRemovesWhatIsNotCommitted) {
+  const fs::path target = folder_ / "out.bin";
+  write(target, "old");
+  EXPECT_EXIT(
+      {
+        AtomicFile file(target);
+        write(file.temporary(), "new");
+        AtomicFile::abandon_all();
+        ::_exit(entries() == 1 ? 7 : 8);
+      },
+      testing::ExitedWithCode(7), "");
+  EXPECT_EQ(read(target), "old");
 }
 
 TEST_F(AtomicFileTest, TwoWritersDoNotDisturbEachOther) {
