@@ -24,7 +24,7 @@ using strake::Index;
 using strake::kNone;
 using strake::TriMesh;
 
-constexpr int kMostLines = 60;
+constexpr int kMostLines = 20;
 
 [[noreturn]] void found(const std::string& what) {
   std::fprintf(stderr, "found: %s\n", what.c_str());

@@ -12,6 +12,7 @@
 #include "common/geometry/poly_topology/poly_topology.h"
 #include "common/geometry/samples/samples.h"
 #include "common/geometry/surface_distance/surface_distance.h"
+#include "stages/fit/vertex_places.h"
 #include "tests/support/chain.h"
 #include "tests/support/matchers.h"
 #include "tests/support/mesh_support.h"
@@ -51,6 +52,28 @@ PolyMesh icosphere(int level) {
   mesh.positions = positions;
   for (const auto& face : faces) mesh.add_face(face);
   return mesh;
+}
+
+/// A vertex on the boundary moves along it as far as a corner, however far it should go.
+TEST(VertexPlaces, StopAtTheEndOfTheirLine) {
+  PolyMesh triangle;
+  triangle.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+  triangle.add_face(std::array<Index, 3>{0, 1, 2});
+  TriMesh mesh = support::plain_tri_mesh(triangle);
+  mesh.is_corner.assign(3, 1);
+  QuadMesh quads;
+  quads.mesh = triangle;
+  quads.mesh.positions[0] = Vec3(0.4, 0, 0);
+  quads.provenance.face = {0, 0, 0};
+  quads.provenance.barycentric = {{0.6, 0.4, 0}, {0, 1, 0}, {0, 0, 1}};
+  const SurfaceDistance surface(mesh.positions, mesh.faces);
+  fitting::VertexPlaces places(mesh, surface, quads);
+  places.move(0, Vec3(0.3, 5, 5));
+  EXPECT_LT((places.positions()[0] - Vec3(0.7, 0, 0)).norm(), 1e-15);
+  places.move(0, Vec3(10, 0, 0));
+  EXPECT_EQ(places.positions()[0], triangle.positions[1]);
+  places.move(0, Vec3(-20, 0, 0));
+  EXPECT_EQ(places.positions()[0], triangle.positions[0]);
 }
 
 /// A polygon mesh as a result, each vertex put on the nearest point of the mesh.

@@ -48,6 +48,27 @@ TEST(ToleranceCheck, FindsASpikeOfTheInput) {
   }
 }
 
+/// Two triangles over the same four corners, joined along one diagonal and along the other: apart
+/// by h where the diagonals cross, which no corner and no halving of edges comes upon, and by less
+/// everywhere else.
+TEST(ToleranceCheck, FindsWhatLiesBetweenAllCorners) {
+  const double h = 0.01;
+  PolyMesh along;
+  along.positions = {Vec3(0, 0, 0), Vec3(0.3, -0.6, h), Vec3(1, 0, 0), Vec3(0.3, 0.9, h)};
+  PolyMesh across = along;
+  along.add_face(std::array<Index, 3>{0, 1, 2});
+  along.add_face(std::array<Index, 3>{0, 2, 3});
+  across.add_face(std::array<Index, 3>{0, 1, 3});
+  across.add_face(std::array<Index, 3>{1, 2, 3});
+  Case c;
+  c.mesh = support::plain_tri_mesh(along);
+  c.quads.mesh = across;
+  // Faces are inclined by h / 0.3 at most, and distances at right angles to them less by its
+  // square.
+  EXPECT_FALSE(is_within(c, 0.97 * h));
+  EXPECT_TRUE(is_within(c, 1.01 * h));
+}
+
 /// On random terrain: where the check accepts, no sample is farther; where it refuses, the largest
 /// distance found among samples and places is as near to the tolerance as its smallest pieces are.
 TEST(ToleranceCheck, AgreesWithSamplesOnTerrain) {
