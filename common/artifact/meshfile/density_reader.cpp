@@ -21,6 +21,7 @@ template <class Source>
 std::vector<double> read_vertices(Source source, const PlyHeader& header) {
   for (const PlyElement& element : header.elements) {
     std::vector<std::size_t> wanted;
+    if (element.properties.empty()) continue;  // any number of rows of no bytes
     if (element.name == "vertex") {
       const auto column = number_column(element, kProperty);
       if (!column) break;
