@@ -5,6 +5,7 @@
 
 #include "common/artifact/artifact.h"
 #include "common/artifact/digest.h"
+#include "common/artifact/hdf5_file.h"
 #include "common/core/error.h"
 #include "tests/artifacts/artifact_values.h"
 
@@ -111,6 +112,15 @@ TEST_P(RoundTrip, OldFileSurvivesAFailedWrite) {
 }
 
 using Artifacts = FolderTest;
+
+/// HDF5 writes when a file is made, and the rest when it is closed.
+TEST_F(Artifacts, ADiskThatIsFullAtTheEndIsNoticed) {
+  const std::vector<double> rows(3'000'000, 1.0);
+  const FileSizeLimit limit(rows.size() * sizeof(double) / 2);
+  hdf5::Writer writer(file("a.hdf"), file("a.hdf"));
+  writer.dataset("/rows", rows);
+  EXPECT_THROW(writer.finish(), InputError);
+}
 
 TEST_F(Artifacts, EmptyLineSetSurvives) {
   const Values values = make_values();

@@ -180,6 +180,14 @@ TEST(Density, IsReadFromPly) {
   EXPECT_EQ(values, (std::vector<double>{1.5, 0.25, 7}));
 }
 
+/// Rows without properties take no bytes: as many as are announced, and none.
+TEST(Density, ElementsWithoutPropertiesTakeNoTime) {
+  const std::string bytes =
+      "ply\nformat binary_little_endian 1.0\nelement nothing 18000000000000000000\n"
+      "element vertex 1\nproperty uchar density\nend_header\n\x02";
+  EXPECT_EQ(parse_density(bytes), std::vector<double>{2});
+}
+
 TEST(Density, WhatCannotBeOneIsRefusedWithItsPlace) {
   const auto message = [](const std::string& bytes) {
     try {
