@@ -93,6 +93,18 @@ fs::path folder_of(const fs::path& target) {
 
 }  // namespace
 
+bool write_all(int descriptor, const void* data, std::size_t size) {
+  const char* at = static_cast<const char*>(data);
+  while (size > 0) {
+    const ssize_t written = ::write(descriptor, at, size);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    at += written;
+    size -= static_cast<std::size_t>(written);
+  }
+  return true;
+}
+
 AtomicFile::AtomicFile(fs::path target) : target_(resolve_target(std::move(target))) {
   static std::atomic<unsigned> counter{0};
   const std::string name = target_.filename().string();

@@ -1,11 +1,16 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 
 namespace strake {
 
 /// Whether a file must survive a power cut, or may be empty then, which is much faster.
 enum class Flush { yes, no };
+
+/// Writes all of the bytes to an open file, in as many calls as it takes.
+/// \return whether that worked; else errno says why not
+bool write_all(int descriptor, const void* data, std::size_t size);
 
 /// A file that appears under its name complete or not at all.
 ///

@@ -84,13 +84,16 @@ class File {
 
 /// Makes a new file: equal calls give equal bytes, each chunk carries a checksum.
 ///
-/// The file grows in memory and goes to the disk in one piece: HDF5 1.10 does not survive a disk
-/// that is full while it writes piece by piece.
+/// The file grows in memory, and is written by ourselves when it is finished: HDF5 1.10 crashes, at
+/// the latest when the program ends, where a disk is full while it writes.
 class Writer : public File {
  public:
   /// \param path   file to create or overwrite, usually a temporary one
   /// \param shown  its name in messages
-  Writer(const std::filesystem::path& path, std::filesystem::path shown);
+  Writer(std::filesystem::path path, std::filesystem::path shown);
+  Writer(const Writer&) = delete;
+  Writer& operator=(const Writer&) = delete;
+  ~Writer();
 
   void group(const std::string& name);
   /// Gives the dataset `existing` a second name, without a copy.
@@ -116,6 +119,9 @@ class Writer : public File {
 
  private:
   void write(const std::string& name, const void* data, Scalar scalar, const Shape& shape);
+
+  std::filesystem::path path_;
+  unsigned char* image_ = nullptr;  ///< the whole file, once it is closed
 };
 
 /// Reads a file and trusts nothing in it: links to other files, filters but checksums, plugins and

@@ -113,7 +113,8 @@ TEST_P(RoundTrip, OldFileSurvivesAFailedWrite) {
 
 using Artifacts = FolderTest;
 
-/// HDF5 writes when a file is made, and the rest when it is closed.
+/// Also of files larger than the piece by which they grow in memory; HDF5 would crash when the
+/// program ends.
 TEST_F(Artifacts, ADiskThatIsFullAtTheEndIsNoticed) {
   const std::vector<double> rows(3'000'000, 1.0);
   const FileSizeLimit limit(rows.size() * sizeof(double) / 2);

@@ -59,15 +59,7 @@ class OutputFile {
   static constexpr std::size_t kSlack = 1 << 12;
 
   void flush() {
-    const char* at = buffer_.data();
-    std::size_t left = buffer_.size();
-    while (left > 0) {
-      const ssize_t written = ::write(descriptor_, at, left);
-      if (written < 0 && errno == EINTR) continue;
-      if (written < 0) fail();
-      at += written;
-      left -= static_cast<std::size_t>(written);
-    }
+    if (!write_all(descriptor_, buffer_.data(), buffer_.size())) fail();
     buffer_.clear();
   }
   [[noreturn]] void fail() const {

@@ -183,7 +183,7 @@ TEST(Density, IsReadFromPly) {
 /// Rows without properties take no bytes: as many as are announced, and none.
 TEST(Density, ElementsWithoutPropertiesTakeNoTime) {
   const std::string bytes =
-      "ply\nformat binary_little_endian 1.0\nelement nothing 18000000000000000000\n"
+      "ply\nformat binary_little_endian 1.0\nelement nothing 9000000000000000000\n"
       "element vertex 1\nproperty uchar density\nend_header\n\x02";
   EXPECT_EQ(parse_density(bytes), std::vector<double>{2});
 }
