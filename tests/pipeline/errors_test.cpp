@@ -33,7 +33,7 @@ TEST_F(Errors, WrongUsage) {
   must_fail(kUsage, "strake remesh torus.ply -o torus.ply", "is the input");
   must_fail(kUsage, "strake remesh torus.ply -o x.obj --vertices 100 --faces 100", "exclude");
   must_fail(kUsage, "strake remesh torus.ply -o x.obj --extension papier", "cross, paper");
-  must_fail(kUsage, "strake nothing", "subcommand");
+  must_fail(kUsage, "strake nothing", "no command");
   must_fail(kUsage, "strake", "subcommand");
   must_fail(kUsage, "strake sample teapot -o x.ply", "teapot");
 }

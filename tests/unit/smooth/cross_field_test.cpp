@@ -18,7 +18,7 @@ namespace strake {
 namespace {
 
 constexpr double kDegree = M_PI / 180;
-constexpr double kStiffness = SmoothOptions{}.field_stiffness;
+const double kStiffness = SmoothOptions{}.field_stiffness;
 
 double angle_to_cross(const PrincipalField& field, Index w, const Vec3& direction) {
   const Vec3& arm = field.cross[w];

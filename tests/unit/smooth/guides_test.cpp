@@ -319,7 +319,7 @@ TEST(GuideFiles, WhatMakesNoSenseIsRefusedWithItsPlace) {
        "no property 'vertex2' of 'edge'"},
   };
   for (const auto& [text, part] : cases) {
-    const std::string message = complaint([&] { parse_guides(text, "a"); });
+    const std::string message = complaint([&, &text = text] { parse_guides(text, "a"); });
     EXPECT_NE(message.find(part), std::string::npos) << text << "\n" << message;
   }
   EXPECT_THROW(read_guides("nowhere.obj"), InputError);
