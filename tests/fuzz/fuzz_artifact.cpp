@@ -111,10 +111,10 @@ void replace(FuzzedDataProvider& data, hid_t file, const std::string& name) {
   } else {
     switch (data.ConsumeIntegralInRange(0, 2)) {
       case 0:
-        H5Pset_external(creation, "elsewhere", 0, H5F_UNLIMITED);
+        H5Pset_external(creation, "/dev/null", 0, H5F_UNLIMITED);
         break;
       case 1:
-        H5Pset_virtual(creation, space, "elsewhere", "there", space);
+        H5Pset_virtual(creation, space, "/dev/null", "there", space);
         break;
       default:  // never written
         break;
@@ -134,7 +134,7 @@ void divert(FuzzedDataProvider& data, hid_t file, const std::string& name,
   H5Ldelete(file, name.c_str(), H5P_DEFAULT);
   switch (data.ConsumeIntegralInRange(0, 3)) {
     case 0:
-      H5Lcreate_external("elsewhere.hdf", "/there", file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+      H5Lcreate_external("/dev/null", "/there", file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
       break;
     case 1:
       H5Lcreate_soft(name.c_str(), file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
