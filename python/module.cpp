@@ -9,6 +9,7 @@
 
 #include "common/core/error.h"
 #include "common/core/suggest.h"
+#include "common/core/tolerance_error.h"
 #include "python/cancellable.h"
 #include "python/values.h"
 #include "strake/chain/chain.h"

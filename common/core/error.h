@@ -52,13 +52,6 @@ class AlgorithmError : public Error {
       : Error(ExitCode::algorithm_failed, message) {}
 };
 
-/// A result is farther from its surface than was asked for, so it is not handed out.
-class ToleranceError : public Error {
- public:
-  explicit ToleranceError(const std::string& message)
-      : Error(ExitCode::tolerance_missed, message) {}
-};
-
 /// The user asked to stop (SIGINT, SIGTERM).
 class Interrupted : public Error {
  public:

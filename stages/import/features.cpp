@@ -152,6 +152,29 @@ void find_creases(TriMesh& mesh, double angle_deg, FeatureCounts& counts) {
   counts.dropped_edges = drop_noise(mesh, rough_at);
 }
 
+/// How far an edge stands out over the straight way across its two faces.
+double ridge_height(const TriMesh& mesh, Index h) {
+  const Vec3& a = mesh.positions[mesh.from(h)];
+  const Vec3 along = direction(mesh, h);
+  const auto across = [&](Index side) {  // from the edge to the corner opposite, in section
+    const Vec3 d = mesh.positions[mesh.from(TriMesh::prev(side))] - a;
+    return Vec3(d - along * along.dot(d));
+  };
+  const Vec3 p = across(h);
+  const Vec3 q = across(mesh.twin[h]);
+  const double way = (q - p).norm();
+  return way > 0 ? p.cross(q).norm() / way : p.norm();
+}
+
+void find_ridges(TriMesh& mesh, double height, FeatureCounts& counts) {
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    if (mesh.twin[h] == kNone || h > mesh.twin[h] || mesh.is_feature[h] != 0) continue;
+    if (!(ridge_height(mesh, h) > height)) continue;
+    ++counts.ridge_edges;
+    set_feature(mesh, h, true);
+  }
+}
+
 void flag_attribute_borders(TriMesh& mesh, const FeatureRules& rules, FeatureCounts& counts) {
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
     if (mesh.twin[h] == kNone || h > mesh.twin[h]) continue;
@@ -169,6 +192,7 @@ FeatureCounts find_features(TriMesh& mesh, const FeatureRules& rules, const Poly
   FeatureCounts counts;
   mesh.is_feature.assign(mesh.halfedge_count(), 0);
   if (rules.angle_deg < 180) find_creases(mesh, rules.angle_deg, counts);
+  if (std::isfinite(rules.height)) find_ridges(mesh, rules.height, counts);
   flag_attribute_borders(mesh, rules, counts);
   if (listed != nullptr) counts.listed_edges = flag_listed_edges(*listed, input, mesh);
   counts.edges =

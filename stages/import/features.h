@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "common/core/edge_list.h"
 #include "common/core/poly_mesh.h"
 #include "common/core/tri_mesh.h"
@@ -9,14 +11,17 @@ namespace strake::import {
 /// Which edges are features.
 struct FeatureRules {
   double angle_deg = 40;  ///< in [0, 180]; bent by more are creases; 180: no creases
-  bool labels = true;     ///< borders of labels
-  bool seams = true;      ///< seams of texture coordinates
+  /// Model units; edges that stand out by more are ridges
+  double height = std::numeric_limits<double>::infinity();
+  bool labels = true;  ///< borders of labels
+  bool seams = true;   ///< seams of texture coordinates
 };
 
 struct FeatureCounts {
   Index strong_edges = 0;    ///< bent by more than the angle
   Index bridging_edges = 0;  ///< bent less, added between strong ones
   Index dropped_edges = 0;   ///< of what was noise
+  Index ridge_edges = 0;     ///< bent less than creases, but standing out by more than the height
   Index label_edges = 0;     ///< between faces of different labels
   Index seam_edges = 0;      ///< where the sides differ in texture coordinates, and not in labels
   Index listed_edges = 0;    ///< of a list, the boundary excluded
@@ -35,6 +40,10 @@ struct FeatureCounts {
 ///
 /// What is noise then is dropped, as `drop_noise` states. The normal of a sliver, which rounding of
 /// the coordinates may have turned, is taken from the neighbour across a long edge.
+///
+/// A ridge is an edge that stands out by more than `height` over the straight way across its two
+/// faces, from corner to corner in their section: a mesh that is coarser than the distances that
+/// matter is taken as the polyhedron it is.
 ///
 /// Borders of labels, seams and listed edges are features whatever their shape; none of this
 /// applies to them.

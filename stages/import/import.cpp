@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -134,6 +135,7 @@ void report_features(const import::FeatureCounts& counts, Report& report) {
   report.set("features.strong_edges", counts.strong_edges);
   report.set("features.bridging_edges", counts.bridging_edges);
   report.set("features.dropped_edges", counts.dropped_edges);
+  report.set("features.ridge_edges", counts.ridge_edges);
   report.set("features.label_edges", counts.label_edges);
   report.set("features.seam_edges", counts.seam_edges);
   report.set("features.listed_edges", counts.listed_edges);
@@ -141,11 +143,14 @@ void report_features(const import::FeatureCounts& counts, Report& report) {
   report.set("features.corners", counts.corners);
 }
 
-FeatureRules feature_rules(const ImportOptions& options) {
+FeatureRules feature_rules(const ImportOptions& options, double diagonal) {
   const auto wants = [&](const char* kind) {
     return options.attribute_features == "all" || options.attribute_features == kind;
   };
-  return {options.feature_angle_deg, wants("labels"), wants("seams")};
+  return {options.feature_angle_deg,
+          options.feature_height ? options.feature_height->resolve(diagonal)
+                                 : std::numeric_limits<double>::infinity(),
+          wants("labels"), wants("seams")};
 }
 
 /// Seams of an atlas of many small charts would leave no room for anything but features.
@@ -204,8 +209,8 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
   result.mesh.origin = frame.origin;
   result.mesh.diagonal = frame.diagonal;
   observer.report("finding features", 0.7);
-  const import::FeatureCounts features =
-      import::find_features(result.mesh, feature_rules(options), soup, listed);
+  const import::FeatureCounts features = import::find_features(
+      result.mesh, feature_rules(options, result.mesh.diagonal), soup, listed);
   if (options.no_attributes) result.mesh.attributes = {};
   build_wedges(result.mesh);
   observer.report("checking", 0.8);

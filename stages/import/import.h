@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "common/core/edge_list.h"
@@ -13,6 +14,8 @@ namespace strake {
 
 struct ImportOptions {
   double feature_angle_deg = 40;  ///< edges bent by more than this are feature edges; 180: none
+  /// Height of ridges above which edges are feature edges whatever their angle; default: none
+  std::optional<Length> feature_height = std::nullopt;
   std::string attribute_features = "seams";  ///< borders that are features: labels, seams, none
   bool no_attributes = false;                ///< leave out colours, texture coordinates and labels
   bool strict = false;                       ///< refuse what would have to be repaired

@@ -10,6 +10,13 @@ OptionList ImportOptions::declare() {
        .help = "Edges bent by more than this are kept as feature edges; 180 keeps none.",
        .min = 0,
        .max = 180},
+      {.name = "feature-height",
+       .target = &feature_height,
+       .unit = "length",
+       .help = "Edges are kept, too, that stand out by more than this over the straight way across "
+               "their two faces; with --tolerance twice that.",
+       .min = 1e-6,
+       .max = 1},
       {.name = "attribute-features",
        .target = &attribute_features,
        .unit = "",

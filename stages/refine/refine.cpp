@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/core/error.h"
+#include "common/core/tolerance_error.h"
 #include "common/geometry/carry_attributes.h"
 #include "common/geometry/cell_error/cell_error.h"
 #include "common/geometry/cell_error/tolerance_check.h"
@@ -299,10 +300,13 @@ std::int64_t refine_to_tolerance(const TriMesh& mesh, Refinement& refinement,
     fewest = std::min(fewest, excess.size());
     if (round == options.rounds || excess.size() > kHopeless * std::max(fewest, kFewPlaces)) {
       if (options.partly) return round;
-      throw ToleranceError(fmt::format(
-          "the result is farther than {:.6g} from the surface, after {} rounds of dividing cells: "
-          "{}; use a larger tolerance or more --refine-rounds",
-          wanted, round, describe(std::move(excess), mesh, tolerance)));
+      std::vector<Vec3> places;
+      for (const Excess& e : excess) places.push_back(e.place);
+      throw ToleranceError(
+          fmt::format("the result is farther than {:.6g} from the surface, after {} rounds of "
+                      "dividing cells: {}; use a larger tolerance or more --refine-rounds",
+                      wanted, round, describe(std::move(excess), mesh, tolerance)),
+          std::move(places));
     }
     if (round >= kRoundsOfDividing && excess.size() >= last) {
       refinement.reach(excess);

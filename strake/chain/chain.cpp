@@ -13,6 +13,12 @@
 #include "strake/chain/goals.h"
 
 namespace strake {
+namespace {
+
+/// Heights of ridges that cells across them would cut off, in tolerances.
+constexpr double kRidgeHeight = 2;
+
+}  // namespace
 
 Chain::Chain()
     : import(import_stage()),
@@ -65,6 +71,13 @@ std::string Chain::reach_goal(Session& session) const {
 
 std::string Chain::run(Session& session) const {
   check_goals();
+  const std::string tolerance = trace.option("tolerance").value();
+  const Option& height = import.option("feature-height");
+  if (!tolerance.empty() && height.value().empty()) {
+    Length ridge = Length::parse(tolerance);
+    ridge.value *= kRidgeHeight;
+    height.parse_into(ridge.to_string());
+  }
   for (const Stage* stage : {&import, &tensor, &smooth}) {
     session.run(*stage);
     session.keep(*stage);

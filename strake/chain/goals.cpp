@@ -6,8 +6,11 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "common/core/error.h"
+#include "common/core/tolerance_error.h"
+#include "stages/size/closer_near.h"
 #include "strake/chain/count_search.h"
 #include "strake/chain/density_match.h"
 
@@ -26,10 +29,17 @@ constexpr int kMostDensityRounds = 5;
 /// Times that cells are divided and vertices fitted again on the way to a tolerance. Fitting makes
 /// many cells good enough that would be divided without.
 constexpr int kFittedRefinements = 2;
-/// Times that lines are traced again, closer, where dividing cells does not reach a tolerance; and
-/// at which share of their distances.
+/// Times that all lines are traced again at this share of their distances where dividing cells does
+/// not reach a tolerance.
 constexpr int kCloserLines = 2;
 constexpr double kCloser = 0.6;
+/// Times that lines are traced closer only around the places left, where that does not help either,
+/// and at which share. Cells are divided less then: where it takes many rounds they lie across a
+/// tip or a fold.
+constexpr int kCloserPlaces = 5;
+constexpr double kCloserThere = 0.5;
+constexpr int kFewRounds = 2;
+constexpr int kAllRounds = std::numeric_limits<int>::max();
 /// Rounds of fitting before errors are fed back: enough to see where they will stay.
 constexpr int kFeedbackFitRounds = 3;
 
@@ -123,23 +133,51 @@ void fit_refined(Session& session, const GoalStages& stages) {
 }
 
 /// Divides cells and fits vertices in turn, and divides once more.
-/// \return the port of the result \throw ToleranceError where the tolerance is not reached
-std::string refine_in_turn(Session& session, const GoalStages& stages) {
+/// \return what the result misses; nothing where "refined" is within the tolerance
+std::optional<ToleranceError> refine_in_turn(Session& session, const GoalStages& stages,
+                                             int most_rounds) {
   const Option& rounds = stages.refine.option("refine-rounds");
   const Option& partly = stages.refine.option("refine-partly");
   const std::string all_rounds = rounds.value();
   const std::string may_miss = partly.value();
+  const int last_rounds = std::min(most_rounds, std::stoi(all_rounds));
   partly.parse_into("true");
-  for (int i = 0; i < std::min(kFittedRefinements, std::stoi(all_rounds)); ++i) {
+  for (int i = 0; i < std::min(kFittedRefinements, last_rounds); ++i) {
     rounds.parse_into("1");
     session.run(stages.refine);
     fit_refined(session, stages);
   }
-  rounds.parse_into(all_rounds);
+  rounds.parse_into(std::to_string(last_rounds));
   partly.parse_into(may_miss);
-  session.run(stages.refine);
-  session.keep(stages.refine);
-  return "refined";
+  std::optional<ToleranceError> miss;
+  try {
+    session.run(stages.refine);
+  } catch (const ToleranceError& error) {
+    miss = error;
+  }
+  rounds.parse_into(all_rounds);
+  if (!miss) session.keep(stages.refine);
+  return miss;
+}
+
+/// Traces at the distances that the options ask for, then closer and closer around the places that
+/// dividing cells does not bring within the tolerance. \return the port of the result
+/// \throw ToleranceError where that is not enough
+std::string close_in(Session& session, const GoalStages& stages) {
+  for (int trial = 0;; ++trial) {
+    const bool is_last = trial == kCloserPlaces;
+    follow_spacing(session, stages);
+    const std::optional<ToleranceError> miss =
+        refine_in_turn(session, stages, is_last ? kAllRounds : kFewRounds);
+    if (!miss) return "refined";
+    if (is_last) throw *miss;
+    session.say(fmt::format("tracing closer lines around {} places", miss->places().size()));
+    session.provide("size",
+                    closer_near(session.get<TriMesh>("mesh"), session.get<LineSet>("lines"),
+                                miss->places(), kCloserThere),
+                    "closer lines", "");
+    stages.trace.option("spacing-scale").parse_into("1");  // the distances have it in them
+  }
 }
 
 }  // namespace
@@ -191,7 +229,8 @@ std::string meet_tolerance(Session& session, const GoalStages& stages,
                            const std::string& tolerance) {
   stages.refine.option("refine-tolerance").parse_into(tolerance);
   const Option& scale = stages.trace.option("spacing-scale");
-  for (int closer = 0;; ++closer) {
+  const std::string first_scale = scale.value();
+  for (int trial = 0; trial <= kCloserLines; ++trial) {
     const std::string fitted = follow_spacing(session, stages);
     if (only_quads(stages)) {
       session.say(
@@ -199,15 +238,15 @@ std::string meet_tolerance(Session& session, const GoalStages& stages,
           "lines, and may be exceeded");
       return fitted;
     }
-    try {
-      return refine_in_turn(session, stages);
-    } catch (const ToleranceError&) {
-      if (closer == kCloserLines) throw;
-    }
+    const std::optional<ToleranceError> miss = refine_in_turn(session, stages, kAllRounds);
+    if (!miss) return "refined";
+    if (stages.refine.option("refine-rounds").value() == "0") throw *miss;
     session.say("dividing cells does not reach the tolerance; tracing closer lines");
     const double closer_scale = kCloser * std::stod(scale.value());
     scale.parse_into(fmt::format("{}", std::clamp(closer_scale, scale.min, scale.max)));
   }
+  scale.parse_into(first_scale);
+  return close_in(session, stages);
 }
 
 }  // namespace strake

@@ -11,6 +11,8 @@ Suites:
            farther off
   quality  quads and distance at five published settings
   dirty    every broken file: a sound result, or a refusal that says why; never a crash
+  all      every file of the collection with strake's defaults, within 120 s and 2 GB; --table FILE
+           puts the results between the marks of a document
   adversarial  the same for generated meshes: --count of them, from --first on
 
 Prints a table; returns 0 where all is well, 1 where a model fails, 77 where models or meter are
@@ -27,6 +29,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import textwrap
 import time
 
 import adversary
@@ -38,6 +41,7 @@ sys.path.append(str(ROOT / "scripts"))
 import documents  # noqa: E402
 
 CATEGORIES = ("scan", "cad", "genus", "open")
+ALL_CLEAN = (*CATEGORIES, "poly", "large")
 SKIPPED = 77
 PARALLEL = 2
 
@@ -48,8 +52,9 @@ COUNT_TOLERANCE = 0.1
 # Seconds of processor time for one model, which other work on the machine does not change; and how
 # much longer it may take by the clock.
 TIME_LIMIT = {"default": 300, "tenth": 300, "quality": 300, "dirty": 60, "adversarial": 20,
-              "tolerance": 120}
+              "tolerance": 120, "all": 120}
 CLOCK_FACTOR = 5
+MEMORY_LIMIT = 2000  # MB of the largest process
 
 # Model, wanted vertices. The RMS distance shall not be above that of Instant Meshes without crease mode.
 QUALITY = [
@@ -65,20 +70,23 @@ LEAST_QUAD_PERCENT_BY_AREA = 75
 
 # Exit codes of strake that refuse an input: bad file, and nothing that can be used.
 REFUSALS = (3, 4)
-# Suites whose inputs may be refused, and are no measure for a result.
-BROKEN = ("dirty", "adversarial")
+# What the limits send, as `timeout` passes it on.
+KILLED = (128 + signal.SIGXCPU, 128 + signal.SIGKILL, -signal.SIGKILL)
 
 
 class Case:
     """One run of strake, and what is wrong with its result."""
 
-    def __init__(self, path, wanted=0, rms_limit=None, model=None):
+    def __init__(self, path, wanted=0, rms_limit=None, model=None, broken=False):
         self.path = path
         self.wanted = wanted
         self.rms_limit = rms_limit
         self.model = model
+        self.broken = broken  # may be refused, and is no measure for a result
         self.exit = None
         self.seconds = 0.0
+        self.processor_seconds = 0.0
+        self.megabytes = 0.0
         self.measures = None
         self.message = ""
         self.faults = []
@@ -125,12 +133,12 @@ class Checker:
         elif case.exit == 0:
             self.measure(case, output)
             self.judge(case)
-        elif self.suite in BROKEN and case.exit in REFUSALS:
+        elif case.broken and case.exit in REFUSALS:
             if not case.message:
                 case.faults.append("refused without a message")
             if output.exists():
                 case.faults.append("refused, but wrote a result")
-        elif case.exit in (-signal.SIGXCPU, -signal.SIGKILL):  # what the limit sends
+        elif case.exit in KILLED:
             case.faults.append(f"longer than {TIME_LIMIT[self.suite]} s of processor time")
         elif case.exit is not None:
             case.faults.append(f"exit {case.exit}: {case.message[-300:]}")
@@ -144,19 +152,24 @@ class Checker:
         if self.suite == "tolerance":
             command += ["--tolerance", f"{100 * TOLERANCE}%"]
         limit = TIME_LIMIT[self.suite]
-        limited = ["sh", "-c", 'ulimit -t "$0" && exec "$@"', str(limit), *command]
+        limited = ["timeout", "-s", "KILL", str(CLOCK_FACTOR * limit),
+                   "sh", "-c", 'ulimit -t "$0" && exec "$@"', str(limit), *command]
         started = time.monotonic()
-        try:
-            run = subprocess.run(limited, capture_output=True, text=True, errors="replace",
-                                 timeout=CLOCK_FACTOR * limit, check=False)
-            case.exit = run.returncode
-            case.message = " ".join(run.stderr.split())
-        except subprocess.TimeoutExpired:
-            case.faults.append(f"longer than {CLOCK_FACTOR * limit} s")
+        with tempfile.TemporaryFile("w+", errors="replace") as messages:
+            run = subprocess.Popen(limited, stdout=subprocess.DEVNULL, stderr=messages)
+            _, status, usage = os.wait4(run.pid, 0)
+            run.returncode = os.waitstatus_to_exitcode(status)
+            messages.seek(0)
+            case.message = " ".join(messages.read().split())
+        case.exit = run.returncode
         case.seconds = time.monotonic() - started
+        case.processor_seconds = usage.ru_utime + usage.ru_stime
+        case.megabytes = usage.ru_maxrss / 1024
+        if self.suite == "all" and case.megabytes > MEMORY_LIMIT:
+            case.faults.append(f"{case.megabytes:.0f} MB")
 
     def measure(self, case, output):
-        if self.suite in BROKEN:  # a broken reference is no measure
+        if case.broken:  # a broken reference is no measure
             arguments = [output, output, "--no-distance"]
         else:
             samples = "200000" if self.suite in ("quality", "tolerance") else "1000"
@@ -182,7 +195,7 @@ class Checker:
             case.faults.append(f"{result['face_sides']['more']} faces with more than 5 sides")
         if not result["faces"]:
             case.faults.append("no faces")
-        if self.suite in BROKEN:
+        if case.broken:
             return
         self.judge_against_input(case, result)
         if self.suite == "quality":
@@ -221,7 +234,7 @@ class Checker:
 
 
 def generated(arguments, scratch):
-    return [Case(adversary.write_mesh(seed, scratch))
+    return [Case(adversary.write_mesh(seed, scratch), broken=True)
             for seed in range(arguments.first, arguments.first + arguments.count)]
 
 
@@ -230,8 +243,13 @@ def cases_of(suite, folder):
         return [Case(folder / name, wanted,
                      1e-4 * float(documents.peer_near(name, wanted, [PEER])["rms"]))
                 for name, wanted in QUALITY]
+    dirty = [Case(path, broken=True) for path in sorted((folder / "dirty").iterdir()) if path.is_file()]
     if suite == "dirty":
-        return [Case(path) for path in sorted((folder / "dirty").iterdir()) if path.is_file()]
+        return dirty
+    if suite == "all":
+        listed = {model.path: model for model in models.read_manifest(folder)}
+        return dirty + [Case(path, model=listed.get(path)) for category in ALL_CLEAN
+                        for path in sorted((folder / category).iterdir()) if path.is_file()]
     sound = [model for model in models.read_manifest(folder) if model.category in CATEGORIES]
     if suite == "tolerance":
         return [Case(model.path, model=model) for model in sound
@@ -249,6 +267,7 @@ def parse_arguments():
                         help="default: $STRAKE_MODELS, else ../shared/models beside the source tree")
     parser.add_argument("--count", type=int, default=2000, help="generated meshes")
     parser.add_argument("--first", type=int, default=0, help="seed of the first of them")
+    parser.add_argument("--table", type=pathlib.Path, help="document to put the results into")
     parser.add_argument("--keep", type=pathlib.Path, help="folder for generated meshes that failed")
     parser.add_argument("--meter", default=os.environ.get("STRAKE_METER"),
                         help="default: $STRAKE_METER, else what scripts/build_meter builds")
@@ -280,7 +299,39 @@ def main():
         if not cases:
             print("check_corpus: error: no model of that name", file=sys.stderr)
             return 2
-        return check_all(cases, Checker(arguments.suite, arguments.strake, meter, scratch), arguments.keep)
+        code = check_all(cases, Checker(arguments.suite, arguments.strake, meter, scratch),
+                         arguments.keep)
+        if arguments.table:
+            text = arguments.table.read_text(encoding="utf-8")
+            arguments.table.write_text(
+                documents.with_generated(text, "models", table_of(cases), arguments.table),
+                encoding="utf-8")
+        return code
+
+
+def reason_of(case):
+    """Why a file was refused, as the program says."""
+    reason = case.message.split("error: ", 1)[-1].replace(f"{case.path.parent}/", "")
+    return textwrap.shorten(reason, 160, placeholder=" …")
+
+
+def table_of(cases):
+    """The results as rows of a Markdown table."""
+    rows = ["| model | result | vertices | faces | quads % | processor s | peak MB | |",
+            "|---|---|---|---|---|---|---|---|"]
+    for case in sorted(cases, key=lambda case: (case.path.parent.name, case.name.lower())):
+        name = f"{case.path.parent.name}/{case.name}"
+        cells = [name, "sound" if case.exit == 0 else "refused", "", "", ""]
+        if case.measures:
+            result = case.measures["candidate"]
+            cells[2:] = [str(result["vertices"]), str(result["faces"]),
+                         f"{result['quad_percent'] or 0:.1f}"]
+        remark = "" if case.exit == 0 else reason_of(case)
+        if case.faults:
+            cells[1], remark = "**fails**", "; ".join(case.faults)
+        rows.append(f"| {' | '.join(cells)} | {case.processor_seconds:.1f} | "
+                    f"{case.megabytes:.0f} | {remark} |")
+    return "\n".join(rows) + "\n"
 
 
 def check_all(cases, checker, keep):

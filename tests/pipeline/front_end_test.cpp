@@ -65,6 +65,25 @@ TEST_F(FrontEnd, KeepsAToleranceOrSaysWhereNot) {
       "from the surface");
 }
 
+/// A mesh that is coarser than the tolerance is the polyhedron it is: here a roof that is
+/// bent by 30 degrees, less than a crease.
+TEST_F(FrontEnd, KeepsTheRidgesOfCoarseMeshes) {
+  put("roof.obj",
+      "v 0 0 0\nv 1 0 0.2679\nv 2 0 0\nv 0 3 0\nv 1 3 0.2679\nv 2 3 0\n"
+      "f 1 2 5 4\nf 2 3 6 5\n");
+  const std::string flags = " -q --no-evaluate -o out.obj --report report.json --tolerance 0.3%";
+  const auto result = [&](const std::string& stage) {
+    return nlohmann::json::parse(bytes("report.json")).at(stage).at("result");
+  };
+  must("strake remesh roof.obj" + flags);
+  EXPECT_EQ(result("import").at("features").at("ridge_edges"), 1);
+  for (const Vec3& p : read("out.obj").positions) {
+    EXPECT_NEAR(p.z(), 0.2679 * (1 - std::abs(p.x() - 1)), 1e-6);
+  }
+  must("strake remesh roof.obj --feature-height 100%" + flags);
+  EXPECT_EQ(result("import").at("features").at("ridge_edges"), 0);
+}
+
 /// Of a sphere whose upper half is wanted twice as dense.
 TEST_F(FrontEnd, FollowsADensity) {
   must("strake sample sphere -o sphere.ply --faces 8000");

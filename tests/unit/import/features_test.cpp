@@ -68,6 +68,28 @@ TEST(Features, TheAngleDecidesOnSmoothFaces) {
   EXPECT_EQ(feature_edges(imported(fold(12, 20, unfaded), {.feature_angle_deg = 10}).mesh), 20);
 }
 
+/// In the section of a fold the corners opposite its edges are one grid step away on either side.
+TEST(Features, RidgesStandOutByMoreThanTheHeightAtAnyAngle) {
+  constexpr int kSteps = 20;
+  for (const double angle : {3.0, 12.0, 30.0}) {
+    const double height = std::tan(0.5 * angle * kDegree) / kSteps;
+    for (const double factor : {0.99, 1.01}) {
+      ImportOptions options;
+      options.feature_height = Length{factor * height, false};
+      const TriMesh mesh = imported(fold(angle, kSteps, unfaded), options).mesh;
+      EXPECT_EQ(feature_edges(mesh), factor < 1 ? kSteps : 0) << angle << " degrees";
+    }
+  }
+}
+
+/// Coarser meshes of the same fold stand out more.
+TEST(Features, RidgesDependOnTheSizeOfFaces) {
+  ImportOptions options;
+  options.feature_height = percent(1);
+  EXPECT_EQ(feature_edges(imported(fold(12, 4, unfaded), options).mesh), 4);
+  EXPECT_EQ(feature_edges(imported(fold(12, 20, unfaded), options).mesh), 0);
+}
+
 TEST(Features, CreaseMeetsTheBoundaryInCorners) {
   const TriMesh mesh = imported(fold(80, 20, unfaded)).mesh;
   // Four of the square and two where the crease ends.

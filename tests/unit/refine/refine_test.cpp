@@ -8,6 +8,7 @@
 #include <set>
 
 #include "common/core/error.h"
+#include "common/core/tolerance_error.h"
 #include "common/geometry/cell_error/tolerance_check.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_topology.h"

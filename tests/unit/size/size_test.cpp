@@ -7,6 +7,7 @@
 #include "common/artifact/meshfile/density_reader.h"
 #include "common/core/error.h"
 #include "common/geometry/samples/samples.h"
+#include "stages/size/closer_near.h"
 #include "tests/support/chain.h"
 #include "tests/unit/refine/result_cases.h"
 
@@ -130,6 +131,27 @@ TEST(Size, ErrorsCountTimesTheDensity) {
   // The ratio of the errors is 4: 4^0.4.
   EXPECT_NEAR(mean_factor(c, size.along, 0, 0.4) / mean_factor(c, size.along, 0.6, 1),
               std::pow(4, 0.4), 0.1);
+}
+
+/// Around a place, on a plane, and nowhere else; what was used before stays in it.
+TEST(CloserNear, MultipliesTheDistancesAroundPlaces) {
+  const Case c = grid(64, 8, [](double, double) { return 0.0; });
+  LineSet lines = used_lines(c.mesh);
+  for (double& d : lines.spacing_along_max) d *= 0.5;
+  const Vec3 place(0.25, 0.5, 0);
+  const SizeField size = closer_near(c.mesh, lines, {place, place}, 0.25);
+  const double reach = 2 * kUsed;
+  const double edge = 0.05;  // longer than the edges of the grid
+  for (Index w = 0; w < c.mesh.wedge_count(); ++w) {
+    const double distance = (c.mesh.positions[c.mesh.wedge_vertex[w]] - place).norm();
+    const double factor = size.along[w] / kUsed;
+    EXPECT_DOUBLE_EQ(size.across[w], 0.5 * size.along[w]);
+    if (distance <= reach) {
+      EXPECT_DOUBLE_EQ(factor, 0.25) << distance;
+    } else if (distance > reach + edge) {
+      EXPECT_DOUBLE_EQ(factor, 1) << distance;
+    }
+  }
 }
 
 /// Distances between lines, not counts: lines go on where their neighbours are nearer than wanted.

@@ -1,0 +1,80 @@
+#include "stages/size/closer_near.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "common/geometry/surface_distance/surface_distance.h"
+
+namespace strake {
+namespace {
+
+constexpr double kReach = 2;  ///< in line distances
+
+/// Collects faces around places.
+class Neighbourhoods {
+ public:
+  explicit Neighbourhoods(const TriMesh& mesh) : mesh_(mesh), stamp_(mesh.face_count(), 0) {}
+
+  /// The faces that are reached from one over edges within `reach` of a place.
+  const std::vector<Index>& around(Index face, const Vec3& place, double reach) {
+    ++current_;
+    faces_.assign(1, face);
+    stamp_[face] = current_;
+    for (std::size_t at = 0; at < faces_.size(); ++at) {
+      for (Index h = 3 * faces_[at]; h < 3 * faces_[at] + 3; ++h) {
+        if (mesh_.twin[h] == kNone) continue;
+        const Index other = TriMesh::face_of(mesh_.twin[h]);
+        if (stamp_[other] == current_ || distance_to(other, place) > reach) continue;
+        stamp_[other] = current_;
+        faces_.push_back(other);
+      }
+    }
+    return faces_;
+  }
+
+ private:
+  [[nodiscard]] double distance_to(Index face, const Vec3& place) const {
+    const auto& [a, b, c] = mesh_.faces[face];
+    return closest_point_on_triangle(place, mesh_.positions[a], mesh_.positions[b],
+                                     mesh_.positions[c])
+        .distance;
+  }
+
+  const TriMesh& mesh_;
+  std::vector<std::uint32_t> stamp_;  ///< [F] neighbourhood that the face was last part of
+  std::uint32_t current_ = 0;
+  std::vector<Index> faces_;
+};
+
+}  // namespace
+
+SizeField closer_near(const TriMesh& mesh, const LineSet& lines, const std::vector<Vec3>& places,
+                      double factor) {
+  SizeField size;
+  size.mesh_id = mesh.id;
+  size.along = lines.spacing_along_min;
+  size.across = lines.spacing_along_max;
+  const SurfaceDistance surface(mesh.positions, mesh.faces);
+  Neighbourhoods neighbourhoods(mesh);
+  std::vector<Index> wedges;
+  for (const Vec3& place : places) {
+    const Index face = surface.closest(place).triangle;
+    double reach = 0;
+    for (const Index w : mesh.face_wedges[face]) {
+      reach = std::max({reach, kReach * size.along[w], kReach * size.across[w]});
+    }
+    for (const Index f : neighbourhoods.around(face, place, reach)) {
+      wedges.insert(wedges.end(), mesh.face_wedges[f].begin(), mesh.face_wedges[f].end());
+    }
+  }
+  std::ranges::sort(wedges);
+  const auto repeated = std::ranges::unique(wedges);
+  wedges.erase(repeated.begin(), repeated.end());
+  for (const Index w : wedges) {
+    size.along[w] *= factor;
+    size.across[w] *= factor;
+  }
+  return size;
+}
+
+}  // namespace strake

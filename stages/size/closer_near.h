@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "common/core/fields.h"
+#include "common/core/line_set.h"
+#include "common/core/tri_mesh.h"
+
+namespace strake {
+
+/// Distances of lines as they were, but closer around some places of the surface.
+///
+/// Beyond [MK04], for where lines at the distances that curvature asks for miss a tip, a pit or a
+/// fold. The change is sudden; the tracing stage evens distances out.
+/// \param lines   of `mesh`: the distances used
+/// \param places  model units, relative to the mesh's origin, on the surface or near it
+/// \param factor  on both distances there, from 0 to 1
+/// Cost: the faces within two line distances of each place.
+SizeField closer_near(const TriMesh& mesh, const LineSet& lines, const std::vector<Vec3>& places,
+                      double factor);
+
+}  // namespace strake
