@@ -39,6 +39,7 @@ BY_HAND = {
     "tests/bench/quality/quality.py --docs": _FIGURES,
     "STRAKE_MODELS=models STRAKE_METER=meshmeter tests/bench/quality/quality.py --docs": _FIGURES,
     "tests/bench/speed/speed.py --docs": _FIGURES,
+    "tests/corpus/check_corpus.py all --strake build/bin/strake --table docs/models.md": _FIGURES,
     "STRAKE_MODELS=models tests/bench/speed/speed.py [MESH...] --docs": _FIGURES,
     "cmake --build build --target strake strake-render strake-bench-decimate": "for the benches above",
     "cmake --build build --target strake-bench-decimate": "for the benches above",
