@@ -67,9 +67,8 @@ SizeField closer_near(const TriMesh& mesh, const LineSet& lines, const std::vect
       wedges.insert(wedges.end(), mesh.face_wedges[f].begin(), mesh.face_wedges[f].end());
     }
   }
-  std::ranges::sort(wedges);
-  const auto repeated = std::ranges::unique(wedges);
-  wedges.erase(repeated.begin(), repeated.end());
+  std::sort(wedges.begin(), wedges.end());
+  wedges.erase(std::unique(wedges.begin(), wedges.end()), wedges.end());
   for (const Index w : wedges) {
     size.along[w] *= factor;
     size.across[w] *= factor;
