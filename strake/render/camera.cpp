@@ -55,8 +55,10 @@ Camera::Camera(std::span<const Vec3> points, const View& view, int width, int he
 }
 
 Camera::Camera(const Vec3& position, const Vec3& target, double fov_deg, int width, int height)
-    : position_(position), middle_(Vec2::Zero()), half_size_(width / 2.0, height / 2.0) {
-  backward_ = (position - target).normalized();
+    : backward_((position - target).normalized()),
+      position_(position),
+      middle_(Vec2::Zero()),
+      half_size_(width / 2.0, height / 2.0) {
   right_ = Vec3::UnitY().cross(backward_);
   right_ = right_.norm() > 1e-9 ? right_.normalized() : Vec3::UnitX();
   up_ = backward_.cross(right_);
