@@ -43,10 +43,36 @@ std::vector<std::uint8_t> fixed_points(const LineSet& lines, Index line, std::si
   return is_fixed;
 }
 
+/// Indices of the points that are kept of each line.
+using KeptPoints = std::vector<std::vector<std::size_t>>;
+
+/// \param deviation  of lines from what is kept of them, model units
+KeptPoints thin_lines(const TriMesh& mesh, const LineSet& lines, double deviation) {
+  KeptPoints kept(static_cast<std::size_t>(lines.line_count()));
+  for (Index line = 0; line < lines.line_count(); ++line) {
+    const std::vector<Vec3> positions = positions_of(mesh, lines, line);
+    if (positions.empty()) continue;
+    kept[line] = thin_line(positions, fixed_points(lines, line, positions.size()), deviation);
+  }
+  return kept;
+}
+
+KeptPoints few_points(const TriMesh& mesh, const LineSet& lines, std::size_t most_points) {
+  constexpr double kMostDeviation = 16 * kLineDeviation;
+  for (double deviation = kLineDeviation;; deviation *= 2) {
+    KeptPoints kept = thin_lines(mesh, lines, deviation * mesh.diagonal);
+    std::size_t count = 0;
+    for (const std::vector<std::size_t>& points : kept) count += points.size();
+    if (count <= most_points || deviation >= kMostDeviation) return kept;
+  }
+}
+
 }  // namespace
 
-nlohmann::ordered_json line_scene(const TriMesh& mesh, const LineSet& lines, Blocks& blocks) {
+nlohmann::ordered_json line_scene(const TriMesh& mesh, const LineSet& lines,
+                                  std::size_t most_points, Blocks& blocks) {
   const Grid grid(mesh.positions);
+  const KeptPoints kept = few_points(mesh, lines, most_points);
   std::vector<GridPoint> points;
   std::vector<LineRow> rows;
   for (Index line = 0; line < lines.line_count(); ++line) {
@@ -63,11 +89,7 @@ nlohmann::ordered_json line_scene(const TriMesh& mesh, const LineSet& lines, Blo
       length += (positions[i] - positions[i - 1]).norm();
     }
     row.length = static_cast<float>(length);
-    const std::vector<std::size_t> kept =
-        positions.empty() ? std::vector<std::size_t>{}
-                          : thin_line(positions, fixed_points(lines, line, positions.size()),
-                                      kLineDeviation * mesh.diagonal);
-    for (const std::size_t i : kept) {
+    for (const std::size_t i : kept[line]) {
       const Index p = first + static_cast<Index>(i);
       if (p == lines.seed_point[line]) row.seed_point = static_cast<std::uint32_t>(points.size());
       const bool again = p == lines.offsets[line + 1];  // the first point of a closed line

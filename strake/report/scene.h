@@ -29,9 +29,12 @@ nlohmann::ordered_json surface_scene(const TriMesh& mesh, const PrincipalField* 
 nlohmann::ordered_json result_scene(const VertexProvenance& provenance, const ResultEdges& result,
                                     const ErrorMap& errors, Blocks& blocks);
 
-/// The lines, each thinned out to `kLineDeviation` of the diagonal.
-nlohmann::ordered_json line_scene(const TriMesh& mesh, const LineSet& lines, Blocks& blocks);
-
 inline constexpr double kLineDeviation = 5e-5;
+inline constexpr std::size_t kMostLinePoints = 100000;
+
+/// The lines, each thinned out to `kLineDeviation` of the diagonal; more, up to 16 times as much,
+/// where more than `most_points` would stay.
+nlohmann::ordered_json line_scene(const TriMesh& mesh, const LineSet& lines,
+                                  std::size_t most_points, Blocks& blocks);
 
 }  // namespace strake::report

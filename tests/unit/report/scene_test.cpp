@@ -137,11 +137,31 @@ TEST(ReportScene, LargeInputsAreDrawnWithFewerFacesThatStayNear) {
   }
 }
 
-TEST(ReportScene, LinesKeepTheirEndsSeedsAndLengths) {
+TEST(ReportScene, ManyLinesHaveFewerPoints) {
+  const auto& [prepared, lines, quads] = example();
+  const auto points = [&](std::size_t most) {
+    Blocks blocks;
+    return report::line_scene(prepared.mesh, lines, most, blocks)
+        .at("points")
+        .at("count")
+        .get<std::size_t>();
+  };
+  const std::size_t all = points(report::kMostLinePoints);
+  EXPECT_EQ(points(all), all);
+  EXPECT_LE(points(all / 2), all / 2);
+  EXPECT_LE(points(1), all / 2);  // ends, seeds and what is far off stay
+  EXPECT_GE(points(1), 2u * static_cast<std::size_t>(lines.line_count()));
+}
+
+class LinesOfAReport : public testing::TestWithParam<std::size_t> {};
+INSTANTIATE_TEST_SUITE_P(MostPoints, LinesOfAReport,
+                         testing::Values(std::size_t{1}, report::kMostLinePoints));
+
+TEST_P(LinesOfAReport, KeepTheirEndsSeedsAndLengths) {
   const TriMesh& mesh = example().prepared.mesh;
   const LineSet& lines = example().lines;
   Blocks blocks;
-  const Json scene = report::line_scene(mesh, lines, blocks);
+  const Json scene = report::line_scene(mesh, lines, GetParam(), blocks);
   const auto bytes = from_base64(blocks.base64());
   const auto points = decode<GridRow>(scene.at("points"), bytes);
   struct Row {
