@@ -37,14 +37,16 @@ std::string fault_of(const TriMesh& mesh) {
   return "";
 }
 
-std::string fault_of(const TensorField& field) {
-  return fault_unless(finite(field.tensor) && finite(field.normal),
+/// \param tensors  a TensorField or a TensorPart
+template <class Tensors>
+std::string fault_of_tensors(const Tensors& tensors) {
+  return fault_unless(finite(tensors.tensor) && finite(tensors.normal),
                       "tensors that are no finite numbers");
 }
 
-std::string fault_of(const TensorPart& part) {
-  return fault_unless(finite(part.tensor) && finite(part.normal),
-                      "tensors that are no finite numbers");
+std::string fault_of_distances(const std::vector<double>& some, const std::vector<double>& others) {
+  return fault_unless(positive(some) && positive(others),
+                      "distances of lines that are not positive");
 }
 
 std::string fault_of(const PrincipalField& field) {
@@ -61,13 +63,7 @@ std::string fault_of(const LineSet& lines) {
         return point.halfedge >= 0 && point.lambda >= 0 && point.lambda < 1;
       });
   if (!on_edges) return "a point of a line that is on no edge";
-  return fault_unless(positive(lines.spacing_along_min) && positive(lines.spacing_along_max),
-                      "distances of lines that are not positive");
-}
-
-std::string fault_of(const SizeField& size) {
-  return fault_unless(positive(size.along) && positive(size.across),
-                      "distances of lines that are not positive");
+  return fault_of_distances(lines.spacing_along_min, lines.spacing_along_max);
 }
 
 std::string fault_of(const QuadMesh& quads) {
@@ -79,17 +75,18 @@ std::string fault_of(const QuadMesh& quads) {
 }  // namespace
 
 std::string broken_invariant(const Value& value) {
-  return std::visit(Overloaded{
-                        [](const TriMesh& mesh) { return fault_of(mesh); },
-                        [](const TensorField& field) { return fault_of(field); },
-                        [](const TensorPart& part) { return fault_of(part); },
-                        [](const PrincipalField& field) { return fault_of(field); },
-                        [](const LineSet& lines) { return fault_of(lines); },
-                        [](const SizeField& size) { return fault_of(size); },
-                        [](const QuadMesh& quads) { return fault_of(quads); },
-                        [](const auto&) { return std::string(); },
-                    },
-                    value);
+  return std::visit(
+      Overloaded{
+          [](const TriMesh& mesh) { return fault_of(mesh); },
+          [](const TensorField& field) { return fault_of_tensors(field); },
+          [](const TensorPart& part) { return fault_of_tensors(part); },
+          [](const PrincipalField& field) { return fault_of(field); },
+          [](const LineSet& lines) { return fault_of(lines); },
+          [](const SizeField& size) { return fault_of_distances(size.along, size.across); },
+          [](const QuadMesh& quads) { return fault_of(quads); },
+          [](const auto&) { return std::string(); },
+      },
+      value);
 }
 
 }  // namespace strake

@@ -1,6 +1,6 @@
 """Runs the add-on in a Blender without window: check_add_on.py STRAKE ADD_ON.
 
-Exit code 77 (skip) where there is no Blender.
+Exit code 77 (skip) where there is no Blender, in continuous integration too, which does not install it.
 """
 
 import os

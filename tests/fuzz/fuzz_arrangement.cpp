@@ -6,13 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "common/core/observer.h"
 #include "stages/mesh/mesh.h"
+#include "tests/fuzz/found.h"
 #include "tests/support/mesh_support.h"
 #include "tests/unit/mesh/arrangement_check.h"
 #include "tests/unit/mesh/graphs.h"
@@ -25,11 +24,6 @@ using strake::kNone;
 using strake::TriMesh;
 
 constexpr int kMostLines = 20;
-
-[[noreturn]] void found(const std::string& what) {
-  std::fprintf(stderr, "found: %s\n", what.c_str());
-  std::abort();
-}
 
 /// 1, 0.1, 0.01 ... 1e-17: from plainly different to equal.
 double small(FuzzedDataProvider& data) {

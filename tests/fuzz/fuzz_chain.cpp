@@ -6,8 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <ctime>
 #include <string>
 #include <string_view>
@@ -15,8 +13,10 @@
 
 #include "common/core/error.h"
 #include "common/core/options.h"
+#include "common/core/tolerance_error.h"
 #include "common/geometry/poly_topology/poly_topology.h"
 #include "strake/chain/remesh.h"
+#include "tests/fuzz/found.h"
 
 namespace {
 
@@ -27,11 +27,6 @@ using strake::Vec3;
 /// Of one processor, slowed down tenfold by sanitizers: a tenth of a second as a rule. Thousands of
 /// lines in a few faces have taken 20 seconds without them.
 constexpr double kMostSeconds = 400;
-
-[[noreturn]] void found(const std::string& what) {
-  std::fprintf(stderr, "found: %s\n", what.c_str());
-  std::abort();
-}
 
 /// Whoever takes too long has hung.
 class Watchdog : public strake::StageObserver {

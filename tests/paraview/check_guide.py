@@ -1,7 +1,7 @@
 """Runs docs/paraview/show_run.py in ParaView: check_guide.py STRAKE, the program.
 
-pvpython is that of $STRAKE_PVPYTHON, else of the PATH, under xvfb-run. Exit code 77: it is not there. ParaView has to open
-every file of a run with the counts that strake gives, and draw the pictures of docs/paraview.md.
+pvpython is that of $STRAKE_PVPYTHON, else of the PATH, under xvfb-run. Exit code 77 (skip): it is not there, as in
+continuous integration: Debian cannot install it beside the VTK that other tests take. ParaView has to open every file of a run with the counts that strake gives, and draw the pictures of docs/paraview.md.
 """
 
 import os

@@ -13,15 +13,6 @@ class ReportCommand : public ProgramTest {
     must("strake sample part -o part.ply --faces 3000");
     must("strake remesh part.ply -q -o part.obj --vertices 400 --keep run");
   }
-
-  /// Whether strake was built with the viewer; where not, says so as it should.
-  bool has_viewer() {
-    const Outcome outcome = run("strake report run -o report.html");
-    if (outcome.exit_code == 0) return true;
-    EXPECT_EQ(outcome.exit_code, 4) << outcome.err;
-    EXPECT_NE(outcome.err.find("scripts/build_viewer"), std::string::npos) << outcome.err;
-    return false;
-  }
 };
 
 TEST_F(ReportCommand, SaysWhatAFolderLacksAndWritesNothing) {
@@ -48,10 +39,10 @@ TEST_F(ReportCommand, TwoResultsInAFolderAreOneTooMany) {
 }
 
 TEST_F(ReportCommand, TakesTheLastResultOfEveryGoal) {
+  STRAKE_VIEWER_OR_SKIP();
   for (const std::string goal : {"", "--tolerance 0.3%", "--tolerance 0.3% --no-evaluate"}) {
     fs::remove_all(file("goal"));
     must("strake remesh part.ply -q -o part.obj --keep goal " + goal);
-    if (!has_viewer()) GTEST_SKIP() << "strake was built without the viewer";
     must("strake report goal -o goal.html");
     const std::string vertices = "\n" + bytes("part.obj");
     std::size_t count = 0;
@@ -63,14 +54,14 @@ TEST_F(ReportCommand, TakesTheLastResultOfEveryGoal) {
 }
 
 TEST_F(ReportCommand, IsTheSameForAnyNumberOfThreads) {
-  if (!has_viewer()) GTEST_SKIP() << "strake was built without the viewer";
+  STRAKE_VIEWER_OR_SKIP();
   must("strake report run -o one.html --threads 1");
   must("strake report run -o three.html --threads 3");
   EXPECT_EQ(bytes("one.html"), bytes("three.html"));
 }
 
 TEST_F(ReportCommand, TakesFilesOfAnyNameAndDoesWithoutTheRest) {
-  if (!has_viewer()) GTEST_SKIP() << "strake was built without the viewer";
+  STRAKE_VIEWER_OR_SKIP();
   fs::create_directory(file("own"));
   fs::copy_file(file("run/mesh.hdf"), file("own/the-input.hdf"));
   fs::copy_file(file("run/fitted.hdf"), file("own/the-output.hdf"));

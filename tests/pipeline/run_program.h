@@ -5,6 +5,14 @@
 #include <filesystem>
 #include <string>
 
+#include "strake/report/viewer.h"
+#include "tests/support/needs.h"
+
+/// A test needs the page that reports are filled into, which this build may lack.
+#define STRAKE_VIEWER_OR_SKIP()                          \
+  STRAKE_NEEDS(!::strake::report::viewer_page().empty(), \
+               "the page of reports: scripts/build_viewer, and build again")
+
 namespace strake::pipeline_test {
 
 /// What a program did.

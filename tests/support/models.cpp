@@ -15,9 +15,4 @@ std::filesystem::path models_folder() {
   return std::filesystem::weakly_canonical(folder);
 }
 
-bool runs_in_ci() {
-  const char* set = std::getenv("CI");
-  return set != nullptr && *set != '\0';
-}
-
 }  // namespace strake::support
