@@ -1,11 +1,42 @@
 #include "strake/report/blocks.h"
 
 #include <meshoptimizer.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "common/core/error.h"
+
 namespace strake::report {
+namespace {
+
+std::vector<unsigned char> deflated(const std::vector<unsigned char>& bytes) {
+  uLongf size = compressBound(bytes.size());
+  std::vector<unsigned char> result(size);
+  if (compress2(result.data(), &size, bytes.data(), bytes.size(), Z_BEST_COMPRESSION) != Z_OK) {
+    throw AlgorithmError("a report cannot be compressed");
+  }
+  result.resize(size);
+  return result;
+}
+
+std::string base64(const std::vector<unsigned char>& bytes) {
+  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    unsigned group = 0;
+    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < count ? bytes[i + k] : 0u);
+    for (std::size_t k = 0; k < 4; ++k) {
+      text += k <= count ? kDigits[group >> (18 - 6 * k) & 63] : '=';
+    }
+  }
+  return text;
+}
+
+}  // namespace
 
 void to_json(nlohmann::ordered_json& json, const Block& block) {
   json = {{"codec", block.codec},
@@ -42,19 +73,6 @@ Block Blocks::triangles(std::span<const std::uint32_t> corners) {
   return append("triangles", encoded, corners.size(), sizeof(std::uint32_t));
 }
 
-std::string Blocks::base64() const {
-  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes_.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes_.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes_.size() - i);
-    unsigned group = 0;
-    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < count ? bytes_[i + k] : 0u);
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += k <= count ? kDigits[group >> (18 - 6 * k) & 63] : '=';
-    }
-  }
-  return text;
-}
+std::string Blocks::packed() const { return base64(deflated(bytes_)); }
 
 }  // namespace strake::report

@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Version of what the viewer reads.
-constexpr int kReportFormat = 1;
+constexpr int kReportFormat = 2;
 constexpr std::string_view kJsonMark = "%STRAKE_REPORT%";
 constexpr std::string_view kBlocksMark = "%STRAKE_BLOCKS%";
 
@@ -80,12 +80,12 @@ PageData describe_runs(const std::vector<RunFiles>& runs) {
                        {"runs", std::move(described)}};
   constexpr bool kAsciiOnly = true;
   return {script_safe(report.dump(-1, ' ', kAsciiOnly, Json::error_handler_t::replace)),
-          blocks.base64()};
+          blocks.packed()};
 }
 
 std::string fill_page(std::string_view viewer, const PageData& data) {
-  // In this order a mark in a run's name is no mark: base64 has none of its characters.
-  std::string page = put(std::string(viewer), kBlocksMark, data.base64);
+  // In this order a mark in a run's name is no mark: base64 has no %.
+  std::string page = put(std::string(viewer), kBlocksMark, data.blocks);
   return put(std::move(page), kJsonMark, data.json);
 }
 

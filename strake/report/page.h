@@ -11,7 +11,7 @@ namespace strake::report {
 /// What is filled into the viewer's page.
 struct PageData {
   std::string json;    ///< description of runs and blocks; safe inside a script element
-  std::string base64;  ///< of all blocks
+  std::string blocks;  ///< all of them, packed
 };
 
 /// Turns runs into what the viewer shows. Runs on one mesh share its surface.

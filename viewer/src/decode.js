@@ -1,20 +1,14 @@
 // Reads what `strake report` wrote: the inverse of strake/report/{blocks,quantise}.cpp.
 import { MeshoptDecoder } from "meshoptimizer/decoder";
+import { inflated } from "./inflate.js";
 
 /** The report's description and a function that decodes its blocks. */
 export async function readReport(document) {
   const report = JSON.parse(document.getElementById("report").textContent);
-  if (report.format !== 1) throw new Error(`This report has format ${report.format}, not 1.`);
-  const bytes = fromBase64(document.getElementById("blocks").textContent.trim());
+  if (report.format !== 2) throw new Error(`This report has format ${report.format}, not 2.`);
+  const bytes = await inflated(document.getElementById("blocks"));
   await MeshoptDecoder.ready;
   return { report, decode: (block) => decodeBlock(block, bytes) };
-}
-
-function fromBase64(text) {
-  const binary = atob(text);
-  const bytes = new Uint8Array(binary.length);
-  for (let i = 0; i < bytes.length; ++i) bytes[i] = binary.charCodeAt(i);
-  return bytes;
 }
 
 /** ArrayBuffer with `count` rows of `stride` bytes. */

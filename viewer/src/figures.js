@@ -50,7 +50,7 @@ export const measure = (run, path) =>
   path.split(".").reduce((object, key) => object?.[key], stageOf(run, "evaluate")?.result);
 
 export function figuresPage(runs) {
-  return el("main", { class: "page" }, warnings(runs), el("h2", {}, "How values are spread"), histograms(runs),
+  return el("main", { class: "page" }, warnings(runs), el("h2", {}, "How values are spread"), runKey(runs), histograms(runs),
     el("h2", {}, "Figures"), table(runs));
 }
 
@@ -64,8 +64,14 @@ function warnings(runs) {
 
 export function runHeads(runs) {
   return runs.map((run, i) => el("th", { scope: "col" },
-    runs.length > 1 && el("i", { class: "swatch", style: `background:${runColours[i % runColours.length]}` }), run.about.name));
+    runs.length > 1 && runSwatch(i), run.about.name));
 }
+
+const runSwatch = (i) => el("i", { class: "swatch", style: `background:${runColours[i % runColours.length]}` });
+
+/** Which colour is which run, where there are several. */
+const runKey = (runs) => runs.length > 1 &&
+  el("ul", { class: "key runs" }, runs.map((run, i) => el("li", {}, runSwatch(i), run.about.name)));
 
 function table(runs) {
   const groups = [];

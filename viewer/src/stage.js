@@ -6,6 +6,7 @@ import { RunObjects, SharedObjects } from "./objects.js";
 
 const firstDirection = new THREE.Vector3(0.55, 0.35, 0.85).normalize();
 const margin = 1.12;
+const headroom = 44; // pixels at the top that labels cover
 const restMs = 600;
 
 /** Whether there is no graphics processor: multisampling takes three times as long then. */
@@ -61,8 +62,10 @@ export class Stage {
   fitting() {
     const { clientWidth, clientHeight } = this.canvas;
     const share = this.view.compare === "side" ? 0.5 : 1;
-    const up = Math.tan((this.camera.fov * Math.PI) / 360) / margin;
-    const aside = (up * share * clientWidth) / clientHeight || up;
+    const half = Math.tan((this.camera.fov * Math.PI) / 360);
+    const covered = clientHeight > 0 ? headroom / clientHeight : 0;
+    const up = (half * (1 - covered)) / margin;
+    const aside = (half * share * clientWidth) / clientHeight / margin || up;
     const axes = [new THREE.Vector3(0, 1, 0).cross(firstDirection).normalize()];
     axes.push(firstDirection.clone().cross(axes[0]));
     const { points } = this.runs[this.view.panes[0].run].surface;
@@ -75,6 +78,7 @@ export class Stage {
       const needed = Math.max(Math.abs(point.dot(axes[0])) / aside, Math.abs(point.dot(axes[1])) / up);
       distance = Math.max(distance, point.dot(firstDirection) + needed);
     }
+    target.addScaledVector(axes[1], distance * half * covered); // the model sits below the labels
     return [...firstDirection.clone().multiplyScalar(distance).add(target).toArray(), ...target.toArray()];
   }
 

@@ -77,16 +77,27 @@ function guideOnSheet() {
   return `${points.map(([x, y]) => `v ${x} ${y} ${sheetHeight(x)}`).join("\n")}\nl ${points.map((_, i) => i + 1).join(" ")}\n`;
 }
 
+// Without a graphics processor the time goes into pixels: few where nobody looks at them.
+const small = { width: 800, height: 480 };
+const desktop = { width: 1200, height: 760 };
+
 /** A page on a report that fails on any error, and on any request but for the report itself. */
 async function open(browser, report, hash, options = {}) {
-  const context = await browser.newContext({ viewport: { width: 1200, height: 760 }, ...options });
+  const context = await browser.newContext({ viewport: small, ...options });
   const page = await context.newPage();
   page.on("console", (message) => assert.ok(!["error", "warning"].includes(message.type()) || /swiftshader|GPU stall/i.test(message.text()), message.text()));
   page.on("pageerror", (error) => assert.fail(error.stack));
   page.on("request", (request) => assert.match(request.url(), /^(file|data|blob):/));
   await page.goto(`file://${encodeURI(join(folder, `${report.name}.html`)).replaceAll("#", "%23")}${hash}`);
   await page.waitForFunction(() => document.documentElement.dataset.ready, null, { timeout: 60000 });
+  report.ready = Math.min(report.ready ?? Infinity, await page.evaluate(() => Number(document.documentElement.dataset.ready)));
   return page;
+}
+
+/** Goes to another view of the report that is open. */
+async function show(page, hash) {
+  await page.evaluate((text) => (location.hash = text), hash);
+  await page.waitForFunction(() => location.hash === window.strakeReport.link);
 }
 
 /** The drawing as a text that is equal for equal pixels. */
@@ -116,15 +127,16 @@ const cutFilling = [217, 199, 166];
 /** Cuts of closed surfaces are filled, of the input and of the result as much; those of open ones are lines. */
 async function checkSection(browser, report) {
   const filled = [];
+  const page = await open(browser, report, "");
   for (const pane of ["0,input,plain,sides,", "0,result,plain,plain,"]) {
-    const page = await open(browser, report, `#a=${pane}&section=y,0.5`);
+    await show(page, `#a=${pane}&section=y,0.5`);
     filled.push(await pixelsOf(page, cutFilling));
     await page.locator("button[data-key='Section none']").click();
     assert.equal(await pixelsOf(page, cutFilling), 0);
-    await page.context().close();
   }
+  await page.context().close();
   if (!report.isClosed) return assert.deepEqual(filled, [0, 0]);
-  assert.ok(filled[0] > 2000 && Math.abs(filled[0] / filled[1] - 1) < 0.1, `cuts of ${filled} pixels`);
+  assert.ok(filled[0] > 500 && Math.abs(filled[0] / filled[1] - 1) < 0.1, `cuts of ${filled} pixels`);
 }
 
 async function checkLayers(page, report) {
@@ -161,7 +173,7 @@ async function checkLayers(page, report) {
 
 /** Numbers of vertex 0 are those of the file; a click in the middle answers. */
 async function checkPicking(browser, report) {
-  const page = await open(browser, report, "#pick=0,vertex,0");
+  const page = await open(browser, report, "#pick=0,vertex,0", { viewport: desktop });
   const vertices = [...readFileSync(join(folder, report.result), "utf8").matchAll(/^v (\S+) (\S+) (\S+)/gm)].map(([, ...xyz]) => xyz);
   const wanted = vertices[0];
   const text = await page.locator(".numbers dd").first().textContent();
@@ -213,22 +225,27 @@ async function checkLink(browser, report) {
 }
 
 async function checkLooks(browser, report) {
+  const compared = "#compare=side,0.5&a=0,input,k_max,sides,minimum+maximum+ends&b=0,result,plain,distance,edges";
+  const wiped = "#compare=wipe,0.5&a=0,input,k_max,sides,&b=0,result,plain,alignment,edges&section=y,0.5";
+  const first = report.hasAttributes ? "#a=0,result,sides,colours,edges" : "#";
+  const phone = { viewport: { width: 390, height: 844 }, isMobile: true };
   const looks = [
-    ["light", {}, ""],
-    ["dark", { colorScheme: "dark" }, "#compare=side,0.5&a=0,input,k_max,sides,minimum+maximum+ends&b=0,result,plain,distance,edges"],
-    ["section", {}, "#compare=wipe,0.5&a=0,input,k_max,sides,&b=0,result,plain,alignment,edges&section=y,0.5"],
-    ["figures", {}, "#tab=figures"],
-    ["phone", { viewport: { width: 390, height: 844 }, deviceScaleFactor: 2, isMobile: true, hasTouch: true }, ""],
-    ["phone-figures", { viewport: { width: 390, height: 844 }, isMobile: true, colorScheme: "dark" }, "#tab=figures"],
+    [{ viewport: desktop }, [["light", first], ["section", wiped], ["figures", "#tab=figures"]]],
+    [{ viewport: desktop, colorScheme: "dark" }, [["dark", compared]]],
+    [{ ...phone, deviceScaleFactor: 2, hasTouch: true }, [["phone", first]]],
+    [{ ...phone, colorScheme: "dark" }, [["phone-figures", "#tab=figures"]]],
   ];
-  for (const [name, options, hash] of looks) {
-    const page = await open(browser, report, hash, options);
-    const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
-    assert.ok(wide <= 0, `${name}: the page is ${wide} pixels too wide`);
-    assert.deepEqual(await page.locator("h1, th, option").locator("b").count(), 0, "a name became markup");
-    await page.waitForFunction(() => window.strakeReport.stage.isFine || window.strakeReport.view.tab !== "surface");
-    await page.waitForTimeout(300);
-    await page.screenshot({ path: join(shots, `${report.name}-${name}.png`) });
+  for (const [options, views] of looks) {
+    const page = await open(browser, report, "", options);
+    for (const [name, hash] of views) {
+      await show(page, hash);
+      const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+      assert.ok(wide <= 0, `${name}: the page is ${wide} pixels too wide`);
+      assert.deepEqual(await page.locator("h1, th, option").locator("b").count(), 0, "a name became markup");
+      await page.waitForFunction(() => window.strakeReport.stage.isFine || window.strakeReport.view.tab !== "surface");
+      await page.waitForTimeout(300);
+      await page.screenshot({ path: join(shots, `${report.name}-${name}.png`) });
+    }
     await page.context().close();
   }
 }
@@ -243,9 +260,6 @@ try {
   });
   for (const report of reports) {
     const page = await open(browser, report, "");
-    const ready = await page.evaluate(() => document.documentElement.dataset.ready);
-    const megabytes = statSync(join(folder, `${report.name}.html`)).size / 1e6;
-    console.log(`browser: ${report.name}: ${megabytes.toFixed(1)} MB, ready after ${ready} ms`);
     await checkLayers(page, report);
     await checkFigures(page, report);
     await page.context().close();
@@ -253,6 +267,9 @@ try {
     await checkLink(browser, report);
     await checkSection(browser, report);
     await checkLooks(browser, report);
+    const megabytes = statSync(join(folder, `${report.name}.html`)).size / 1e6;
+    console.log(`browser: ${report.name}: ${megabytes.toFixed(1)} MB, ready after ${report.ready} ms`);
+    assert.ok(report.ready < 3000, "that is too slow");
   }
   console.log("browser: everything passed");
 } finally {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <random>
+#include <set>
 
 #include "tests/unit/report/decoded.h"
 
@@ -38,7 +39,7 @@ TEST(Blocks, RowsAndTrianglesComeBackInOrder) {
   const nlohmann::ordered_json first = blocks.vertices(rows);
   const nlohmann::ordered_json second = blocks.triangles(corners);
   const nlohmann::ordered_json third = blocks.vertices(std::vector<std::uint32_t>{});
-  const auto bytes = from_base64(blocks.base64());
+  const auto bytes = unpacked(blocks);
   EXPECT_EQ(bytes.size(), blocks.size());
 
   EXPECT_EQ((decode<std::array<std::uint16_t, 4>>(first, bytes)), rows);
@@ -51,12 +52,19 @@ TEST(Blocks, RowsAndTrianglesComeBackInOrder) {
   EXPECT_TRUE(decode<std::uint32_t>(third, bytes).empty());
 }
 
-TEST(Blocks, Base64OfEveryLengthModuloThree) {
-  for (const std::size_t count : {1u, 2u, 3u, 4u, 5u}) {
+TEST(Blocks, AreUnpackedWhateverTheirLength) {
+  std::mt19937 random(2);
+  std::set<std::ptrdiff_t> paddings;  // of base64
+  for (std::size_t count = 0; count < 12; ++count) {
+    std::vector<std::uint32_t> rows(count);
+    for (std::uint32_t& row : rows) row = static_cast<std::uint32_t>(random());
     Blocks blocks;
-    blocks.vertices(std::vector<std::uint32_t>(count, 7));
-    EXPECT_EQ(from_base64(blocks.base64()).size(), blocks.size()) << count;
+    const nlohmann::ordered_json block = blocks.vertices(rows);
+    EXPECT_EQ(decode<std::uint32_t>(block, unpacked(blocks)), rows);
+    const std::string packed = blocks.packed();
+    paddings.insert(std::count(packed.begin(), packed.end(), '='));
   }
+  EXPECT_EQ(paddings, (std::set<std::ptrdiff_t>{0, 1, 2}));
 }
 
 }  // namespace

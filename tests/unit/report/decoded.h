@@ -1,13 +1,16 @@
 #pragma once
 
 #include <meshoptimizer.h>
+#include <zlib.h>
 
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-/// Reads blocks of a report as the viewer does, with the decoder of meshoptimizer.
+#include "strake/report/blocks.h"
+
+/// Reads blocks of a report as the viewer does, with zlib and the decoder of meshoptimizer.
 namespace strake::report_test {
 
 /// Bytes of a base64 text. \throw std::invalid_argument where it is none
@@ -34,6 +37,18 @@ inline std::vector<unsigned char> from_base64(const std::string& text) {
       bytes.push_back(static_cast<unsigned char>(group >> (16 - 8 * k)));
     }
   }
+  return bytes;
+}
+
+/// The bytes that blocks were packed from. \throw std::runtime_error where they do not come back
+inline std::vector<unsigned char> unpacked(const report::Blocks& blocks) {
+  const std::vector<unsigned char> packed = from_base64(blocks.packed());
+  std::vector<unsigned char> bytes(blocks.size() + 1);  // more would show
+  uLongf size = bytes.size();
+  if (uncompress(bytes.data(), &size, packed.data(), packed.size()) != Z_OK) {
+    throw std::runtime_error("zlib");
+  }
+  bytes.resize(size);
   return bytes;
 }
 
