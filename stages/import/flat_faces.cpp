@@ -6,6 +6,8 @@
 #include <iterator>
 #include <utility>
 
+#include "stages/import/disjoint_sets.h"
+
 namespace strake::import {
 namespace {
 
@@ -209,6 +211,30 @@ void remove_flat_faces(Soup& soup, std::vector<Index> twin, double diagonal, Rep
   FlatFaceRemover remover(soup, twin, diagonal, repairs);
   remover.run();
   remove_faces(soup, remover.removed());
+}
+
+void drop_pieces_without_area(Soup& soup, Repairs& repairs) {
+  DisjointSets pieces(soup.vertex_count());
+  for (const auto& [a, b, c] : soup.faces) {
+    pieces.unite(a, b);
+    pieces.unite(a, c);
+  }
+  std::vector<double> area(soup.positions.size(), 0);  // at the piece's first vertex
+  std::vector<Eigen::AlignedBox3d> box(soup.positions.size());
+  for (Index f = 0; f < soup.face_count(); ++f) {
+    const Index piece = pieces.find(soup.faces[f][0]);
+    area[piece] += face_area(soup, f);
+    for (const Index v : soup.faces[f]) box[piece].extend(soup.positions[v]);
+  }
+  std::vector<std::uint8_t> remove(soup.faces.size(), 0);
+  std::int64_t count = 0;
+  for (Index f = 0; f < soup.face_count(); ++f) {
+    const Index piece = pieces.find(soup.faces[f][0]);
+    remove[f] = area[piece] <= kThinnest * box[piece].diagonal().squaredNorm() ? 1 : 0;
+    count += remove[f];
+  }
+  if (count > 0) remove_faces(soup, remove);
+  repairs.faces_without_area += count;
 }
 
 }  // namespace strake::import

@@ -15,4 +15,10 @@ namespace strake::import {
 /// \param twin  [3F] opposite half-edges, kNone on the boundary; not kept up to date
 void remove_flat_faces(Soup& soup, std::vector<Index> twin, double diagonal, Repairs& repairs);
 
+/// A surface with less area than this share of the square of its extent has none.
+inline constexpr double kThinnest = 1e-9;
+
+/// Removes connected pieces that have no area as a whole: points and lines, however many triangles.
+void drop_pieces_without_area(Soup& soup, Repairs& repairs);
+
 }  // namespace strake::import

@@ -46,28 +46,23 @@ Vec3 choose_origin(const Eigen::AlignedBox3d& box) {
   return (box.center() / grid).array().round().matrix() * grid;
 }
 
-double total_area(const Soup& soup) {
-  double area = 0;
-  for (const auto& [a, b, c] : soup.faces) {
-    const Vec3& p = soup.positions[a];
-    area += 0.5 * (soup.positions[b] - p).cross(soup.positions[c] - p).norm();
-  }
-  return area;
-}
+/// Diagonals between which products of several lengths, also of edges, are numbers.
+constexpr double kSmallest = 1e-30;
+constexpr double kLargest = 1e60;
 
 /// Moves the soup to its origin. \throw InputError where it has no extent or area
 void place(Soup& soup, TriMesh& frame) {
-  constexpr double kThinnest = 1e-9;
   if (soup.faces.empty()) throw InputError("the mesh has no usable face");
   const Eigen::AlignedBox3d box = box_of_faces(soup);
   frame.diagonal = box.diagonal().norm();
   if (!(frame.diagonal > 0)) throw InputError("all vertices of the mesh lie in one point");
-  if (!std::isfinite(frame.diagonal * frame.diagonal)) {
+  if (!(frame.diagonal <= kLargest)) {
     throw InputError("the coordinates of the mesh are too large; scale the model down");
   }
+  if (frame.diagonal < kSmallest) throw InputError("the mesh is too small; scale the model up");
   frame.origin = choose_origin(box);
   for (Vec3& p : soup.positions) p -= frame.origin;
-  if (total_area(soup) <= kThinnest * frame.diagonal * frame.diagonal) {
+  if (import::total_area(soup) <= import::kThinnest * frame.diagonal * frame.diagonal) {
     throw InputError("the mesh has no area: all its vertices lie on a line");
   }
 }
@@ -82,6 +77,7 @@ std::vector<std::string> describe(const Repairs& repairs) {
   add(repairs.degenerate_faces, "faces dropped that use a vertex twice");
   add(repairs.duplicate_faces, "faces dropped that were there twice");
   add(repairs.inner_faces, "faces dropped that were walls between touching solids");
+  add(repairs.faces_without_area, "faces dropped that belong to pieces without area");
   add(repairs.welded_vertices, "vertices merged where borders coincide");
   add(repairs.flipped_faces, "faces turned over to agree with their neighbours");
   add(repairs.non_orientable_cuts, "edges cut because the surface has only one side");
@@ -93,20 +89,36 @@ std::vector<std::string> describe(const Repairs& repairs) {
   return sentences;
 }
 
-void refuse_repairs(const Repairs& repairs) {
-  const std::vector<std::string> sentences = describe(repairs);
-  if (sentences.empty()) return;
+std::string list_repairs(const Repairs& repairs) {
   std::string list;
-  for (const std::string& sentence : sentences) list += "\n  " + sentence;
+  for (const std::string& sentence : describe(repairs)) list += "\n  " + sentence;
+  return list;
+}
+
+void refuse_repairs(const Repairs& repairs) {
+  const std::string list = list_repairs(repairs);
+  if (list.empty()) return;
   throw InputError("the mesh needs repairs, which --strict forbids:" + list);
 }
 
-void report_repairs(const Repairs& repairs, double diagonal, Report& report) {
+/// Refuses repairs that take away too much of the surface.
+void check_removed(double removed_percent, double most_removed_percent, const Repairs& repairs) {
+  if (removed_percent <= most_removed_percent) return;
+  throw InputError(fmt::format(
+      "repairs would remove {:.1f} % of the surface, and only {} % are allowed; let them "
+      "with --most-removed {:.0f}, or repair the mesh before:{}",
+      removed_percent, most_removed_percent, std::ceil(removed_percent), list_repairs(repairs)));
+}
+
+void report_repairs(const Repairs& repairs, double removed_percent, double diagonal,
+                    Report& report) {
   report.set("repairs.unusable_faces", repairs.unusable_faces);
   report.set("repairs.triangulated_faces", repairs.triangulated_faces);
   report.set("repairs.degenerate_faces", repairs.degenerate_faces);
   report.set("repairs.duplicate_faces", repairs.duplicate_faces);
   report.set("repairs.inner_faces", repairs.inner_faces);
+  report.set("repairs.faces_without_area", repairs.faces_without_area);
+  report.set("repairs.removed_percent", removed_percent);
   report.set("repairs.welded_vertices", repairs.welded_vertices);
   report.set("repairs.weld_tolerance", repairs.weld_tolerance / diagonal);
   report.set("repairs.flipped_faces", repairs.flipped_faces);
@@ -192,6 +204,7 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
   Soup triangles = import::triangulate(soup, repairs);
   import::drop_degenerate_faces(triangles, repairs);
   place(triangles, frame);
+  const double area = import::total_area(triangles);
   repairs.unreferenced_vertices = count_unreferenced(soup);
 
   observer.report("repairing", 0.1);
@@ -200,8 +213,12 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
   import::drop_duplicate_faces(triangles, repairs);
   import::remove_flat_faces(triangles, import::make_manifold(triangles, repairs), frame.diagonal,
                             repairs);
+  import::drop_pieces_without_area(triangles, repairs);
   if (triangles.faces.empty()) throw InputError("the mesh has no face left after the repairs");
   if (options.strict) refuse_repairs(repairs);
+  const double removed_percent =
+      100 * std::max(0.0, 1 - import::total_area(triangles) / (area - repairs.duplicate_area));
+  check_removed(removed_percent, options.most_removed_percent, repairs);
 
   observer.report("ordering", 0.5);
   result.mesh = import::assemble(triangles);
@@ -220,7 +237,7 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
   result.report.set("input.vertices", soup.vertex_count());
   result.report.set("input.faces", soup.face_count());
   report_census(result.mesh, result.report);
-  report_repairs(repairs, frame.diagonal, result.report);
+  report_repairs(repairs, removed_percent, frame.diagonal, result.report);
   report_features(features, result.report);
   warn_of_many_seams(result.mesh, features, result.report);
   report_attributes(result.mesh.attributes, result.report);

@@ -18,7 +18,9 @@ struct ImportOptions {
   std::optional<Length> feature_height = std::nullopt;
   std::string attribute_features = "seams";  ///< borders that are features: labels, seams, none
   bool no_attributes = false;                ///< leave out colours, texture coordinates and labels
-  bool strict = false;                       ///< refuse what would have to be repaired
+  /// Largest share of the area that repairs may take away. Not counted is what is there twice.
+  double most_removed_percent = 10;
+  bool strict = false;  ///< refuse what would have to be repaired
 
   OptionList declare();
 };

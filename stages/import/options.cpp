@@ -28,6 +28,14 @@ OptionList ImportOptions::declare() {
        .target = &no_attributes,
        .unit = "",
        .help = "Leave out colours, texture coordinates and labels of faces."},
+      {.name = "most-removed",
+       .target = &most_removed_percent,
+       .unit = "%",
+       .help =
+           "Refuse a mesh of whose surface repairs would remove more than this share of the area; "
+           "what is there twice does not count.",
+       .min = 0,
+       .max = 100},
       {.name = "strict",
        .target = &strict,
        .unit = "",

@@ -1,5 +1,6 @@
 #include "stages/import/soup.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -70,6 +71,18 @@ void remove_faces(Soup& soup, const std::vector<std::uint8_t>& remove) {
   if (!soup.texture.empty()) soup.texture.resize(kept);
   soup.faces.resize(kept);
   soup.source_face.resize(kept);
+}
+
+double face_area(const Soup& soup, Index face) {
+  const auto& [a, b, c] = soup.faces[face];
+  const Vec3& p = soup.positions[a];
+  return 0.5 * (soup.positions[b] - p).cross(soup.positions[c] - p).norm();
+}
+
+double total_area(const Soup& soup) {
+  double area = 0;
+  for (Index f = 0; f < soup.face_count(); ++f) area += face_area(soup, f);
+  return area;
 }
 
 void drop_degenerate_faces(Soup& soup, Repairs& repairs) {
@@ -160,6 +173,7 @@ void drop_duplicate_faces(Soup& soup, Repairs& repairs) {
   std::vector<std::uint8_t> is_doubled;
   for (Index f = 0; f < soup.face_count(); ++f) {
     is_copy[f] = copies[f] == 0 ? 1 : 0;
+    if (copies[f] == 0) repairs.duplicate_area += face_area(soup, f);
     if (copies[f] != 0) is_doubled.push_back(copies[f] % 2 == 0 ? 1 : 0);
   }
   const auto dropped = static_cast<std::int64_t>(soup.faces.size() - is_doubled.size());

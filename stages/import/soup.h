@@ -34,7 +34,9 @@ struct Repairs {
   std::int64_t welded_vertices = 0;
   std::int64_t degenerate_faces = 0;  ///< a corner twice
   std::int64_t duplicate_faces = 0;
-  std::int64_t inner_faces = 0;  ///< of walls between solids that touch
+  double duplicate_area = 0;            ///< of all copies but one, model units squared
+  std::int64_t inner_faces = 0;         ///< of walls between solids that touch
+  std::int64_t faces_without_area = 0;  ///< of pieces that have none at all
   std::int64_t non_manifold_edges = 0;
   std::int64_t inserted_vertices = 0;  ///< to tell apart edges with the same two end points
   std::int64_t flipped_faces = 0;
@@ -63,6 +65,9 @@ class EdgeGroups {
 
 /// Removes the faces that are marked. \param remove  [F]
 void remove_faces(Soup& soup, const std::vector<std::uint8_t>& remove);
+
+double face_area(const Soup& soup, Index face);
+double total_area(const Soup& soup);
 
 /// Removes faces with a repeated corner.
 void drop_degenerate_faces(Soup& soup, Repairs& repairs);

@@ -6,11 +6,24 @@
 #include "stages/import/import.h"
 
 namespace strake {
+namespace {
+
+/// As import_mesh, with the name of the file in what is wrong with it.
+ImportResult import_file(const Inputs& inputs, const ImportOptions& options, Observer& observer) {
+  try {
+    return import_mesh(inputs.get<Polygons>("input").mesh, options, observer,
+                       inputs.find<EdgeList>("feature-edges"));
+  } catch (const InputError& error) {
+    throw InputError(inputs.at("input").origin + ": " + error.what());
+  }
+}
+
+}  // namespace
 
 Stage import_stage() {
   Stage stage;
   stage.name = "import";
-  stage.version = 3;
+  stage.version = 4;
   stage.summary = "Turns a mesh file into a sound triangle mesh with its feature graph.";
   stage.inputs = {
       {"input", PortKind::polygons, "mesh file: OBJ, PLY, OFF or STL"},
@@ -25,8 +38,7 @@ Stage import_stage() {
           throw InputError(inputs.at("input").origin + ": " + defects.front() +
                            " Leave --strict out to go on without.");
         }
-        ImportResult result =
-            import_mesh(input.mesh, options, observer, inputs.find<EdgeList>("feature-edges"));
+        ImportResult result = import_file(inputs, options, observer);
         input.read.add_to(result.report);
         return StageResult{std::move(result.mesh), std::move(result.report)};
       });

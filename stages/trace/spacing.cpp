@@ -15,6 +15,18 @@ namespace {
 /// Aspect ratio that grading may give to cells where curvature asks for none.
 constexpr double kGradedAspect = 2;
 
+/// Radius of what counts as a needle whatever the tolerance, in smallest spacings.
+constexpr double kThickestNeedle = 5;
+
+/// Factor on the distances that curvature gives on needles, which are bent more tightly than the
+/// tolerance: less than three lines fit around them, so nothing shows how round they are, and
+/// lines at the distance for that would be thousands of rings. 1 elsewhere, and from there on.
+double needle_factor(double curvature, double tolerance, const SpacingLimits& limits) {
+  const double radius = std::min(tolerance, kThickestNeedle * limits.smallest);
+  const double tightness = std::max(1.0, radius * curvature);
+  return tightness * tightness;
+}
+
 /// |Normal curvature| in the tangent direction `d` of wedge w (Euler's formula).
 double normal_curvature(const PrincipalField& field, Index w, const Vec3& d) {
   const double c = field.t_min[w].dot(d);
@@ -169,7 +181,8 @@ Spacing SpacingModel::ungraded(double tolerance, const SpacingLimits& limits) co
     const auto distance = [&](double curvature, const std::vector<double> SizeField::*size) {
       const double d = size_ != nullptr
                            ? size_factor * (size_->*size)[w]
-                           : spacing_for_curvature(curvature, tolerance, limits.largest);
+                           : needle_factor(curvature, tolerance, limits) *
+                                 spacing_for_curvature(curvature, tolerance, limits.largest);
       const double wanted = std::min(limits.largest, shrink_.empty() ? d : shrink_[w] * d);
       return std::max(limits.smallest, limits.scale * wanted);
     };
@@ -180,7 +193,8 @@ Spacing SpacingModel::ungraded(double tolerance, const SpacingLimits& limits) co
   }
   for (const auto& [key, length] : bounds_) {
     double& value = key % 2 == 0 ? spacing.along[key / 2] : spacing.across[key / 2];
-    value = std::min(value, std::max(1.0, limits.scale) * length);  // gives way to a wanted count
+    const double bound = std::max(1.0, limits.scale) * length;  // gives way to a wanted count
+    value = std::min(value, std::max(limits.smallest, bound));
   }
   return spacing;
 }

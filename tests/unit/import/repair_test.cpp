@@ -306,5 +306,75 @@ TEST(Repair, NoEdgeCollapsesWhereATunnelWouldClose) {
   EXPECT_EQ(census(result.mesh).genus, 1);
 }
 
+TEST(Repair, PiecesWithoutAreaGo) {
+  // A triangle with two corners in one place, one with all three, and a needle of two triangles
+  // along a line: nothing can be collapsed there, as nothing would be left.
+  const auto piece = [](const Vec3& a, const Vec3& b, const Vec3& c) {
+    return shapes::polygons({a, b, c}, {{0, 1, 2}});
+  };
+  const Vec3 at(0.3, 0.3, 2);
+  PolyMesh mesh = shapes::together(shapes::cube(), piece(at, at, Vec3(1, 1, 2)));
+  mesh = shapes::together(mesh, piece(at, at, at));
+  mesh = shapes::together(
+      mesh, shapes::polygons({at, at + Vec3(1, 0, 0), at + Vec3(3, 0, 0), at + Vec3(2, 0, 0)},
+                             {{0, 1, 2}, {0, 2, 3}}));
+  const ImportResult result = imported(mesh);
+  EXPECT_EQ(count(result.report, "repairs.faces_without_area") +
+                count(result.report, "repairs.degenerate_faces"),
+            4);
+  EXPECT_GE(count(result.report, "repairs.faces_without_area"), 2);
+  EXPECT_EQ(census(result.mesh).components, 1);
+  EXPECT_NEAR(shapes::area(result.mesh), 6, 1e-14);
+}
+
+/// `count` cubes in a row, each sharing a face with the next.
+PolyMesh row_of_cubes(int count) {
+  PolyMesh row = shapes::cube();
+  for (int i = 1; i < count; ++i) row = shapes::together(row, shapes::cube(Vec3(i, 0, 0)));
+  return shapes::merged(row);
+}
+
+TEST(Repair, RemovesNoMoreThanIsAllowed) {
+  // n cubes have 4 n + 2 squares outside and n - 1 between them: the share of the walls is
+  // (n - 1) / (5 n + 1), 9.1 % for two, 12.5 % for three.
+  EXPECT_EQ(imported(row_of_cubes(2)).mesh.face_count(), 2 * 10);
+  try {
+    imported(row_of_cubes(3));
+    FAIL() << "12.5 % of the surface are walls";
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("12.5 %"), std::string::npos) << message;
+    EXPECT_NE(message.find("--most-removed 13"), std::string::npos) << message;
+    EXPECT_NE(message.find("walls between touching solids: 4"), std::string::npos) << message;
+  }
+  EXPECT_EQ(imported(row_of_cubes(3), {.most_removed_percent = 13}).mesh.face_count(), 2 * 14);
+  EXPECT_THROW(imported(row_of_cubes(2), {.most_removed_percent = 0}), InputError);
+}
+
+TEST(Repair, WhatIsThereTwiceDoesNotCountAsRemoved) {
+  PolyMesh mesh = shapes::torus(9, 7);
+  const PolyMesh turned = shapes::turned(mesh, [](Index) { return true; });
+  for (int copy = 0; copy < 5; ++copy) {
+    for (Index f = 0; f < turned.face_count(); ++f) mesh.add_face(turned.face(f));
+  }
+  const ImportOptions careful{.most_removed_percent = 0};
+  EXPECT_NO_THROW(imported(shapes::torus(9, 7), careful));
+  EXPECT_NEAR(shapes::area(imported(mesh, {.most_removed_percent = 1e-6}).mesh),
+              shapes::area(imported(shapes::torus(9, 7)).mesh), 1e-12);
+}
+
+TEST(Repair, SizesWhoseProductsAreNoNumbersAreRefused) {
+  for (const double size : {1e-29, 1e-3, 1e59}) {
+    PolyMesh cube = shapes::cube();
+    for (Vec3& p : cube.positions) p *= size;
+    EXPECT_NEAR(shapes::area(imported(cube).mesh) / (6 * size * size), 1, 1e-14);
+  }
+  for (const double size : {1e-31, 1e-60, 1e61, 1e100}) {
+    PolyMesh cube = shapes::cube();
+    for (Vec3& p : cube.positions) p *= size;
+    EXPECT_THROW(imported(cube), InputError);
+  }
+}
+
 }  // namespace
 }  // namespace strake

@@ -214,6 +214,50 @@ TEST(Grading, TiesDistancesAlongAFeatureOnItsTwoSidesOnly) {
   EXPECT_GT(creases, 0);
 }
 
+/// A plane with one curvature everywhere in the direction across its field, and none along it.
+Spacing spacing_for(double curvature, double tolerance, const SpacingLimits& limits) {
+  const TriMesh mesh = sample_mesh(SampleKind::plane, 500);
+  PrincipalField field = field_along(mesh, [](const Vec3&) { return Vec3(1, 0, 0); });
+  std::fill(field.k_max.begin(), field.k_max.end(), curvature);
+  return SpacingModel(mesh, field).for_tolerance(tolerance, limits);
+}
+
+TEST(Needles, AreNotResolved) {
+  SpacingLimits limits;
+  limits.smallest = 1e-4;
+  limits.largest = 0.05;
+  // Of this radius, or thicker than the tolerance, they count as round.
+  const double tolerance = 2e-4;
+  for (const double share : {0.01, 0.5, 1.0}) {
+    EXPECT_DOUBLE_EQ(spacing_for(share / tolerance, tolerance, limits).across.front(),
+                     spacing_for_curvature(share / tolerance, tolerance, limits.largest));
+  }
+  for (const double share : {2.0, 5.0, 10.0}) {  // thinner: wider by the square
+    EXPECT_NEAR(spacing_for(share / tolerance, tolerance, limits).across.front(),
+                share * share * 2 * tolerance, 1e-12);
+  }
+  EXPECT_EQ(spacing_for(1e9, tolerance, limits).across.front(), limits.largest);
+  // A coarse tolerance does not make needles of what is bent more than that.
+  EXPECT_DOUBLE_EQ(spacing_for(1000, 0.02, limits).across.front(),
+                   spacing_for_curvature(1000, 0.02, limits.largest));
+}
+
+TEST(Bounds, AreNotBelowTheSmallestDistance) {
+  const TriMesh mesh = sample_mesh(SampleKind::plane, 500);
+  const PrincipalField field = field_along(mesh, [](const Vec3&) { return Vec3(1, 0, 0); });
+  SpacingLimits limits;
+  limits.smallest = 1e-4;
+  limits.largest = 0.05;
+  for (const double length : {0.0, 1e-9, 1e-3}) {
+    SpacingModel model(mesh, field);
+    model.bound_along({0}, length);
+    const Spacing spacing = model.for_tolerance(1e-4, limits);
+    const double least = std::min(*std::min_element(spacing.along.begin(), spacing.along.end()),
+                                  *std::min_element(spacing.across.begin(), spacing.across.end()));
+    EXPECT_DOUBLE_EQ(least, std::max(length, limits.smallest));
+  }
+}
+
 TEST(PredictedVertices, IsTheAreaInCells) {
   const TriMesh mesh = sample_mesh(SampleKind::plane, 800);
   Spacing spacing;
