@@ -20,6 +20,9 @@ ELSEWHERE = {
     "ctest -L blender": ("scripts/test", 'ctest --preset "$preset"'),
     "cmake --install build": ("tests/package/check_package.py", 'run("cmake", "--install", build'),
     "cmake --install build --prefix PREFIX": ("tests/package/check_package.py", 'run("cmake", "--install", build'),
+    "cmake --build build --target strake strake-render strake-bench-decimate": ("scripts/test", "--target strake-bench-decimate"),
+    "cmake --build build --target strake-bench-decimate": ("scripts/test", "--target strake-bench-decimate"),
+    "scripts/fuzz 60": ("tests/fuzz/CMakeLists.txt", "scripts/fuzz --built"),
     "cpack -G DEB": ("tests/package/check_debian.py", 'run("cpack", "-G", "DEB"'),
 }
 
@@ -30,25 +33,30 @@ CODE = {
     "docs/artifacts-in-python.md python": ("tests/artifacts/artifacts_in_python.py", "docs/artifacts-in-python.md"),
 }
 
+# Run on small models of our own making under names of the collection, in a copy of the tree: they measure for minutes to
+# hours else, and rewrite documents. A command, and how it is called then.
+_SPEED = "STRAKE_MODELS=models tests/bench/speed/speed.py"
+_QUALITY = "tests/bench/quality/quality.py --docs"
+ON_SMALL_MODELS = {
+    "scripts/measure_docs": "scripts/measure_docs",
+    "STRAKE_MODELS=models STRAKE_METER=meshmeter STRAKE_BIN=build/bin scripts/measure_docs":
+        "STRAKE_MODELS=models STRAKE_METER=meshmeter STRAKE_BIN=build/bin scripts/measure_docs",
+    "scripts/render_docs": "scripts/render_docs",
+    _QUALITY: _QUALITY,
+    f"STRAKE_MODELS=models STRAKE_METER=meshmeter {_QUALITY}": f"STRAKE_MODELS=models STRAKE_METER=meshmeter {_QUALITY}",
+    "tests/bench/speed/speed.py --docs": "tests/bench/speed/speed.py --docs",
+    f"{_SPEED} [MESH...] --docs": f"{_SPEED} scan.ply --docs",
+    "tests/corpus/check_corpus.py all --strake build/bin/strake --table docs/models.md":
+        "tests/corpus/check_corpus.py all --strake build/bin/strake --table docs/models.md",
+    "scripts/compare_builds build/bin build-clang/bin MESH...": "scripts/compare_builds build/bin build-clang/bin scan.ply",
+}
+
 # Run by a person: why no test does.
-_FIGURES = "measures for minutes to hours, needs the test models and the meter, and rewrites a document"
 BY_HAND = {
-    "scripts/measure_docs": _FIGURES,
-    "STRAKE_MODELS=models STRAKE_METER=meshmeter STRAKE_BIN=build/bin scripts/measure_docs": _FIGURES,
-    "scripts/render_docs": _FIGURES,
-    "tests/bench/quality/quality.py --docs": _FIGURES,
-    "STRAKE_MODELS=models STRAKE_METER=meshmeter tests/bench/quality/quality.py --docs": _FIGURES,
-    "tests/bench/speed/speed.py --docs": _FIGURES,
-    "tests/corpus/check_corpus.py all --strake build/bin/strake --table docs/models.md": _FIGURES,
-    "STRAKE_MODELS=models tests/bench/speed/speed.py [MESH...] --docs": _FIGURES,
-    "cmake --build build --target strake strake-render strake-bench-decimate": "for the benches above",
-    "cmake --build build --target strake-bench-decimate": "for the benches above",
-    "scripts/compare_builds build/bin build-clang/bin MESH...": "takes another build of everything, with clang",
-    "scripts/mutate": "builds a part of everything anew for each fault, for half an hour",
-    "paraview --state=pictures/run.pvsm": "opens a window",
+    "scripts/mutate": "builds a part of everything anew for each fault, for half an hour; a test looks whether the faults fit",
+    "paraview --state=pictures/run.pvsm": "opens a window; a test makes the state",
     "tests/paraview/make_root paraview-root": "fetches 2 GB; before each release",
     "STRAKE_PVPYTHON=$PWD/paraview-root/pvpython ctest --preset release -L paraview": "takes the above",
-    "scripts/fuzz 60": "builds everything anew with clang and looks for faults as long as it is let",
 }
 
 # Commands that serve until their input ends, for the others of their page, and what those are told.

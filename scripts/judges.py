@@ -26,7 +26,7 @@ class Meter:
     name = "the independent meter"
 
     def __init__(self, path):
-        self.path = str(path)
+        self.path = str(path.resolve())  # a name alone would be looked for on the PATH
 
     def census(self, mesh):
         """Counts and topology of a mesh, and the faces that pass through each other."""

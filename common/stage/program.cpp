@@ -155,6 +155,29 @@ const CLI::App& chosen_command(const CLI::App& app) {
   return commands.empty() ? app : *commands.front();
 }
 
+/// Programs in the folder of this one whose names begin with its name and "-", without that.
+std::vector<std::string> programs_beside(const std::string& name) {
+  std::vector<std::string> found;
+  std::error_code ignored;
+  const fs::path self = fs::read_symlink("/proc/self/exe", ignored);
+  for (const auto& entry : fs::directory_iterator(self.parent_path(), ignored)) {
+    const std::string program = entry.path().filename();
+    if (program.starts_with(name + "-")) found.push_back(program.substr(name.size() + 1));
+  }
+  return found;
+}
+
+/// What is near to a command that is none, as "; did you mean ...?"; or "".
+std::string command_meant(const CLI::App& app, const std::string& word,
+                          const std::vector<std::string>& known) {
+  if (const std::string near = nearest_word(word, known); !near.empty()) {
+    return fmt::format("; did you mean '{}'?", near);
+  }
+  const std::string near = nearest_word(word, programs_beside(app.get_name()));
+  if (near.empty()) return "";
+  return fmt::format("; did you mean the program '{}-{}'?", app.get_name(), near);
+}
+
 /// What is wrong with the first word that looks like an option, or should be a command, and is
 /// none; or "".
 std::string unknown_word(const CLI::App& app) {
@@ -171,8 +194,11 @@ std::string unknown_word(const CLI::App& app) {
   for (const std::string& word : app.remaining(kOfCommandsToo)) {
     if (word.front() != '-' && !lacks_command) continue;
     const std::string name = word.substr(0, word.find('='));
+    if (word.front() != '-') {
+      return fmt::format("there is no command '{}'{}", name, command_meant(app, name, known));
+    }
     const std::string nearest = nearest_word(name, known);
-    return fmt::format("there is no {} '{}'{}", word.front() == '-' ? "option" : "command", name,
+    return fmt::format("there is no option '{}'{}", name,
                        nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest));
   }
   return "";

@@ -164,6 +164,12 @@ class Suggestions(unittest.TestCase):
             self.assertIn(f"did you mean '{meant}'?", message)
             self.assertRegex(message, r"there is no (option '--|command ')")
 
+    def test_stages_are_programs_of_their_own(self):
+        for word, meant in (("trace", "strake-trace"), ("smoth", "strake-smooth"), ("render", "strake-render")):
+            code, message = said("strake", word, "mesh.hdf")
+            self.assertEqual(code, 2, message)
+            self.assertIn(f"there is no command '{word}'; did you mean the program '{meant}'?", message)
+
     def test_nothing_near_is_not_guessed(self):
         for words in (("strake", "chocolate"), ("strake-tensor", "m.hdf", "-o", "t.hdf", "--chocolate")):
             code, message = said(*words)
