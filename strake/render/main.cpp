@@ -31,7 +31,7 @@ struct Arguments {
   std::string up = "y";
   std::string view_address;
   std::string section;
-  std::string layers;
+  std::string layers = "edges";
   RunView shown;
   double line_width = 2.5;
   bool flat = false;
@@ -88,9 +88,12 @@ void add_run_arguments(CLI::App& app, Arguments& arguments) {
                    "of the input: plain, k_min, k_max, confidence, colours; of the result: sides, "
                    "distance, alignment, colours, plain")
       ->capture_default_str();
-  group->add_option("--layers", arguments.layers,
-                    "joined by +: edges, triangles, minimum, maximum, boundary, feature, ends, "
-                    "seeds, principal, cross, guides (default: edges)");
+  group
+      ->add_option(
+          "--layers", arguments.layers,
+          "none, or joined by +: edges, triangles, minimum, maximum, boundary, feature, ends, "
+          "seeds, principal, cross, guides")
+      ->capture_default_str();
   group
       ->add_option("--section", arguments.section,
                    "Plane that cuts: x, y or z, and a share of the size: y,0.5")
@@ -115,7 +118,7 @@ void interpret(Arguments& arguments) {
   } else {
     std::string address = "#a=0," + arguments.shown.surface + "," + arguments.shown.colour + "," +
                           arguments.shown.colour + "," +
-                          (arguments.layers.empty() ? "edges" : arguments.layers);
+                          (arguments.layers == "none" ? "" : arguments.layers);
     if (!arguments.section.empty()) address += "&section=" + arguments.section;
     arguments.shown = read_view(address);
   }

@@ -17,8 +17,8 @@ TEST_F(RenderRun, DrawsEachLayerOfARunAndAgreesWithTheAddressOfAView) {
   };
   std::set<std::string> seen;
   for (const std::string options :
-       {"--layers edges", "--colour plain", "--colour distance", "--colour alignment",
-        "--section y,0.5", "--section y,0.5,flipped", "--layers triangles",
+       {"--layers edges", "--layers none", "--colour plain", "--colour distance",
+        "--colour alignment", "--section y,0.5", "--section y,0.5,flipped", "--layers triangles",
         "--surface input --colour plain --layers minimum",
         "--surface input --colour plain --layers maximum",
         "--surface input --colour plain --layers feature",
