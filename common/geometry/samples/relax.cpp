@@ -64,7 +64,7 @@ class Relaxer {
 
   void scatter(double amount, UniformRandom& random) {
     for (Index v = 0; v < static_cast<Index>(draft_.positions.size()); ++v) {
-      const Vec3 direction(random.symmetric(), random.symmetric(), random.symmetric());
+      const Vec3 direction = random.in_cube();
       if (draft_.vertex_surface[v] == nullptr) continue;
       collect_fan(v);
       double shortest = (at(to(fan_[0])) - at(v)).norm();

@@ -192,7 +192,7 @@ Index SurfaceBuilder::add_seam(const CurveFunction& at, double spacing, const Su
   curve.locked = false;
   const double step = vertex_size_.back();
   for (const Index v : curve.vertices) {
-    const Vec3 shift(random_.symmetric(), random_.symmetric(), random_.symmetric());
+    const Vec3 shift = random_.in_cube();
     draft_.positions[v] = surface->project(draft_.positions[v] + 0.2 * step * shift);
     draft_.vertex_surface[v] = surface.get();
   }

@@ -9,6 +9,7 @@
 
 #include "common/core/error.h"
 #include "common/geometry/poly_topology/poly_topology.h"
+#include "common/geometry/samples/random.h"
 #include "tests/support/analytic_surfaces.h"
 #include "tests/support/mesh_support.h"
 
@@ -171,6 +172,17 @@ TEST(ClosedSamples, EncloseTheExactVolumeToSecondOrder) {
     // Chord triangles miss the surface by h^2 k / 8 at most: order 2. Vertices are placed anew at
     // every size, which scatters the slope over two factors of two by some hundredths.
     EXPECT_NEAR(support::observed_order(sizes, errors), 2, 0.15);
+  }
+}
+
+TEST(UniformRandom, DrawsCoordinatesInOneOrderWhateverTheCompiler) {
+  UniformRandom one_by_one(7);
+  UniformRandom at_once(7);
+  for (int i = 0; i < 10; ++i) {
+    const double z = one_by_one.symmetric();
+    const double y = one_by_one.symmetric();
+    const double x = one_by_one.symmetric();
+    EXPECT_EQ(at_once.in_cube(), Vec3(x, y, z));
   }
 }
 
