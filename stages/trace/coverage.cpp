@@ -48,20 +48,26 @@ Rows rows_of(const TriMesh& mesh, Index face) {
 
 }  // namespace
 
-Coverage::Coverage(const TraceDomain& domain)
-    : domain_(domain),
-      wedge_marks_(domain.mesh.wedge_count(), 0),
-      own_corners_(domain.mesh.face_count(), 0) {
-  offsets_.reserve(domain.mesh.face_count() + 1);
+Coverage::Coverage(const TraceDomain& domain, const FaceBlocks& blocks)
+    : domain_(domain), blocks_(blocks), wedge_marks_(domain.mesh.wedge_count(), 0) {
+  const TriMesh& mesh = domain.mesh;
+  offsets_.reserve(static_cast<std::size_t>(mesh.face_count()) + 1);
   offsets_.push_back(0);
-  for (Index f = 0; f < domain.mesh.face_count(); ++f) {
+  for (Index f = 0; f < mesh.face_count(); ++f) {
     sample_face(f);
     offsets_.push_back(static_cast<Index>(points_.size()));
   }
   std::vector<std::uint8_t> has_corner(wedge_marks_.size(), 0);
-  for (Index h = 0; h < domain.mesh.halfedge_count(); ++h) {
-    if (std::exchange(has_corner[domain.mesh.wedge_of(h)], 1) != 0) continue;
-    own_corners_[TriMesh::face_of(h)] |= static_cast<std::uint8_t>(1 << h % 3);
+  corners_.reserve(wedge_marks_.size());
+  first_corner_.push_back(0);
+  for (Index block = 0; block < blocks.count(); ++block) {
+    for (const Index f : blocks.faces(block)) {
+      for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+        if (std::exchange(has_corner[mesh.wedge_of(h)], 1) == 0) corners_.push_back(h);
+      }
+    }
+    open_corners_.push_back(static_cast<Index>(corners_.size()) - first_corner_.back());
+    first_corner_.push_back(static_cast<Index>(corners_.size()));
   }
 }
 
@@ -113,33 +119,41 @@ void Coverage::sample_face(Index face) {
                    });
 }
 
-void Coverage::mark(const std::vector<Index>& faces, const Vec3& point, const Vec3& direction,
-                    double distance) {
+void Coverage::mark(const CoveredDisc& disc, BlockWalk& walk) {
+  for (const Index block : walk.around(disc.face, disc.point, disc.distance)) {
+    if (open_corners_[block] > 0) mark_corners(block, disc);
+    // Only faces as large as a block have points of their own.
+    if (blocks_.is_single(block)) mark_points(blocks_.faces(block).front(), disc);
+  }
+}
+
+void Coverage::mark_corners(Index block, const CoveredDisc& disc) {
   const TriMesh& mesh = domain_.mesh;
-  const double limit = distance * distance;
-  for (const Index f : faces) {
-    // Faces around a vertex within the distance are all there, so one of them can see to it.
-    for (int i = 0; i < 3; ++i) {
-      if ((own_corners_[f] >> i & 1) == 0) continue;
-      const Index w = mesh.face_wedges[f][i];
-      if (wedge_marks_[w] == kBothArms) continue;
-      if ((mesh.positions[mesh.faces[f][i]] - point).squaredNorm() > limit) continue;
-      const Vec3& normal = domain_.field.normal[w];
-      const Vec3 flat = direction - normal * normal.dot(direction);
-      wedge_marks_[w] |= arm_bit(domain_.field.cross[w], flat);
-    }
-    if (offsets_[f] == offsets_[f + 1]) continue;
-    const Rows rows = rows_of(mesh, f);
-    const double middle = rows.place(point);
-    const auto first = points_.begin() + offsets_[f];
-    const auto last = points_.begin() + offsets_[f + 1];
-    const double margin = (1 + kRounding) * distance;
-    const auto is_before = [&](const Point& q) { return rows.place(q.position) < middle - margin; };
-    for (auto p = std::partition_point(first, last, is_before);
-         p != last && rows.place(p->position) <= middle + margin; ++p) {
-      if ((p->position - point).squaredNorm() > limit) continue;
-      p->marks |= arm_bit(p->arm, direction);
-    }
+  const double limit = disc.distance * disc.distance;
+  for (Index at = first_corner_[block]; at < first_corner_[block + 1]; ++at) {
+    const Index w = mesh.wedge_of(corners_[at]);
+    std::uint8_t& marks = wedge_marks_[w];
+    if (marks == kBothArms) continue;
+    if ((mesh.positions[mesh.from(corners_[at])] - disc.point).squaredNorm() > limit) continue;
+    const Vec3& normal = domain_.field.normal[w];
+    const Vec3 flat = disc.direction - normal * normal.dot(disc.direction);
+    marks |= arm_bit(domain_.field.cross[w], flat);
+    if (marks == kBothArms) --open_corners_[block];
+  }
+}
+
+void Coverage::mark_points(Index face, const CoveredDisc& disc) {
+  if (offsets_[face] == offsets_[face + 1]) return;
+  const Rows rows = rows_of(domain_.mesh, face);
+  const double middle = rows.place(disc.point);
+  const auto first = points_.begin() + offsets_[face];
+  const auto last = points_.begin() + offsets_[face + 1];
+  const double margin = (1 + kRounding) * disc.distance;
+  const auto is_before = [&](const Point& q) { return rows.place(q.position) < middle - margin; };
+  for (auto p = std::partition_point(first, last, is_before);
+       p != last && rows.place(p->position) <= middle + margin; ++p) {
+    if ((p->position - disc.point).squaredNorm() > disc.distance * disc.distance) continue;
+    p->marks |= arm_bit(p->arm, disc.direction);
   }
 }
 

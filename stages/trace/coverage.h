@@ -2,9 +2,18 @@
 
 #include <vector>
 
+#include "stages/trace/face_blocks.h"
 #include "stages/trace/sampling.h"
 
 namespace strake {
+
+/// Where a line passes, and how far around it covers the surface.
+struct CoveredDisc {
+  Index face = kNone;
+  Vec3 point;
+  Vec3 direction;       ///< of the line
+  double distance = 0;  ///< model units
+};
 
 /// Keeps track of where on the surface a line of each direction passes near by.
 ///
@@ -13,12 +22,10 @@ namespace strake {
 /// every face instead would fail nine times out of ten.
 class Coverage {
  public:
-  explicit Coverage(const TraceDomain& domain);
+  /// \param blocks  of the same mesh; both kept by reference
+  Coverage(const TraceDomain& domain, const FaceBlocks& blocks);
 
-  /// Marks what lies within `distance` of a point of a line.
-  /// \param faces  all faces that can be reached from the point over edges within `distance`
-  void mark(const std::vector<Index>& faces, const Vec3& point, const Vec3& direction,
-            double distance);
+  void mark(const CoveredDisc& disc, BlockWalk& walk);
 
   /// A place on the surface and one arm of its cross.
   struct Gap {
@@ -56,12 +63,17 @@ class Coverage {
 
   static bool is_gap(std::uint8_t marks, int arm) { return (marks >> arm & 1) == 0; }
   void sample_face(Index face);
+  void mark_corners(Index block, const CoveredDisc& disc);
+  void mark_points(Index face, const CoveredDisc& disc);
   [[nodiscard]] Gap corner_gap(Index face, int corner, int arm) const;
   [[nodiscard]] Gap point_gap(Index face, Index point, int arm) const;
 
   const TraceDomain& domain_;
+  const FaceBlocks& blocks_;
   std::vector<std::uint8_t> wedge_marks_;  ///< [W] bit 0: along the cross, bit 1: across it
-  std::vector<std::uint8_t> own_corners_;  ///< [F] bits of the corners that stand for their wedges
+  std::vector<Index> first_corner_;        ///< [B + 1] into corners_
+  std::vector<Index> corners_;             ///< [W] half-edges, one for each wedge, by block
+  std::vector<Index> open_corners_;        ///< [B] corners whose arms are not all covered
   std::vector<Index> offsets_;             ///< [F + 1] into points_
   std::vector<Point> points_;
 };

@@ -25,16 +25,15 @@ void LineWalker::record(LineHead& head, const Chord& chord, HalfLine& half) {
   segment.a = head.last_position;
   segment.b = line_point_position(domain_.mesh, chord.to);
   segment.direction = chord.direction.normalized();
-  segment.line = head.line;
-  segment.arc = head.sign * (head.arc - 0.5 * (segment.b - segment.a).norm());
+  segment.face = chord.face;
   segment.family = head.family;
-  proximity_.insert(chord.face, segment);
+  proximity_.record(segment, head.sign * (head.arc - 0.5 * (segment.b - segment.a).norm()));
   head.last = chord.to;
   head.last_position = segment.b;
 }
 
 void LineWalker::take_back(LineHead& head, std::size_t count, HalfLine& half) {
-  proximity_.remove_last(count);
+  proximity_.shrink(proximity_.recorded().size() - count);
   const std::size_t left = half.points.size() - count;
   half.points.resize(left);
   half.faces.resize(left);

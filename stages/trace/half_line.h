@@ -30,7 +30,8 @@ struct HalfLine {
   std::vector<Index> faces;  ///< of the chord that leads to each point
   std::vector<LineFamily> families;
   LineEnd end = LineEnd::stuck;
-  Index stopped_by = kNone;  ///< the line it came too close to; kNone for none, or a barrier
+  Index stopped_by = kNone;  ///< the line it came too close to; kNone for none, or a barrier,
+                             ///< kOwnLine for itself
   CrossingSeeds crossings;   ///< seeds of lines that cross this one
   LinePoint origin;          ///< the seed's anchor; halfedge kNone where it has none
   Index seed_face = kNone;
@@ -40,13 +41,13 @@ struct HalfLine {
 
 /// Moves heads over the surface, recording where they cross edges.
 ///
-/// Every recorded chord is one segment in the proximity index, so that what was recorded last can
+/// Every recorded chord is one segment of the probe, so that what was recorded last can
 /// be taken back.
 class LineWalker {
  public:
   /// \param barriers [3F] half-edges of feature and boundary lines; kept by reference
   LineWalker(const TraceDomain& domain, const std::vector<std::uint8_t>& barriers,
-             ProximityIndex& proximity)
+             ProximityProbe& proximity)
       : domain_(domain), barriers_(barriers), proximity_(proximity) {}
 
   /// Moves the head along a straight geodesic; false where the line ends, with `half.end` set.
@@ -69,7 +70,7 @@ class LineWalker {
 
   const TraceDomain& domain_;
   const std::vector<std::uint8_t>& barriers_;
-  ProximityIndex& proximity_;
+  ProximityProbe& proximity_;
 };
 
 }  // namespace strake

@@ -86,16 +86,19 @@ bool can_close(const LineHead& head, const LocalSpacing& spacing) {
   return head.arc > 2 * kCloseRange * spacing.to_neighbours;
 }
 
-bool close_line(const TraceDomain& domain, const ProximityIndex& proximity, LineWalker& walker,
+bool close_line(const TraceDomain& domain, ProximityProbe& proximity, LineWalker& walker,
                 const LineHead& head, double least_cosine, HalfLine& half) {
-  const double reach = kCloseRange * spacing_at(domain, head).to_neighbours;
+  const double distance = spacing_at(domain, head).to_neighbours;
+  const double reach = kCloseRange * distance;
+  const Index face = head.context.chart.face;
+  const Vec3 point = world_point(domain, head.context, head.point);
   std::optional<WayHome> way;
   std::size_t joined = 0;
   for (; joined + 2 < half.points.size(); ++joined) {
     const Target target = target_chord(domain, half, joined);
     if ((target.position - half.seed_position).norm() > reach) return false;
-    if (!proximity.in_cell(target.face) ||
-        !heads_for(domain, head, half, target, reach, least_cosine)) {
+    if (!heads_for(domain, head, half, target, reach, least_cosine) ||
+        !proximity.can_reach(face, point, distance, target.face)) {
       continue;
     }
     way = way_home(domain, head, half, target);

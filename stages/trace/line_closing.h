@@ -17,8 +17,7 @@ bool can_close(const LineHead& head, const LocalSpacing& spacing);
 /// a chord can reach, and drops the points before that one.
 /// \param half  changed only where it closes; then `end` is `closed` and the chord from its last
 ///              point to its first lies in `faces.front()`
-/// \pre the last query of `proximity` was around the head
-bool close_line(const TraceDomain& domain, const ProximityIndex& proximity, LineWalker& walker,
+bool close_line(const TraceDomain& domain, ProximityProbe& proximity, LineWalker& walker,
                 const LineHead& head, double least_cosine, HalfLine& half);
 
 }  // namespace strake

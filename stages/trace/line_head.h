@@ -27,7 +27,6 @@ struct LineHead {
   std::array<Index, 2> closed = {kNone, kNone};  ///< half-edges that are no way out of the face
   LineFamily family = LineFamily::minimum;
   bool was_reliable = true;
-  Index line = kNone;
   double arc = 0;            ///< length from the seed
   double sign = 1;           ///< -1 on the backward half
   bool from_corner = false;  ///< whether the line starts at a vertex

@@ -50,7 +50,7 @@ void CrossingSeeds::spawn(bool closed, std::vector<Seed>& spawned) const {
   }
 }
 
-LineGap gap_beside(const TraceDomain& domain, const LineHead& head, ProximityIndex& proximity) {
+LineGap gap_beside(const TraceDomain& domain, const LineHead& head, ProximityProbe& proximity) {
   LineGap gap;
   gap.wanted = spacing_at(domain, head).to_neighbours;
   gap.reach = kGapRange * gap.wanted;
@@ -58,14 +58,13 @@ LineGap gap_beside(const TraceDomain& domain, const LineHead& head, ProximityInd
   query.face = head.context.chart.face;
   query.point = world_point(domain, head.context, head.point);
   query.direction = world_direction(domain, head.context, head.heading);
-  query.radius = gap.reach;
-  query.own_line = head.line;
+  query.distance = gap.reach;
   std::tie(gap.to_left, gap.to_right) = proximity.distances_beside(
       query, world_direction(domain, head.context, left_of(head.heading)));
   return gap;
 }
 
-Seed centred(const TraceDomain& domain, const Seed& seed, ProximityIndex& proximity) {
+Seed centred(const TraceDomain& domain, const Seed& seed, ProximityProbe& proximity) {
   const LineHead head = start_head(domain, seed, true);
   const LineGap gap = gap_beside(domain, head, proximity);
   const bool has_left = gap.to_left < gap.reach;

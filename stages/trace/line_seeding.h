@@ -37,10 +37,10 @@ struct LineGap {
   double wanted = 0;    ///< between neighbouring lines here
   double reach = 0;     ///< how far was looked
 };
-LineGap gap_beside(const TraceDomain& domain, const LineHead& head, ProximityIndex& proximity);
+LineGap gap_beside(const TraceDomain& domain, const LineHead& head, ProximityProbe& proximity);
 
 /// The seed moved sideways into the middle between the lines of its direction beside it, or to
 /// the wanted distance from the only one: lines that fill gaps are then as even as possible.
-Seed centred(const TraceDomain& domain, const Seed& seed, ProximityIndex& proximity);
+Seed centred(const TraceDomain& domain, const Seed& seed, ProximityProbe& proximity);
 
 }  // namespace strake

@@ -12,6 +12,7 @@ namespace strake {
 namespace {
 
 constexpr double kStepShare = 0.25;      ///< integration step as a share of the line distance
+constexpr double kCoverStep = 0.4;       ///< line distances between discs that a line covers
 constexpr double kOwnSkip = 2.0;         ///< stop distances along itself that a line does not see
 constexpr double kWayOut = 1.2;          ///< stop distances at which a line is out of narrows
 constexpr double kLongestNarrows = 30;   ///< line distances that a line may run in narrows
@@ -59,12 +60,13 @@ double length_of(const TriMesh& mesh, const TracedLine& line) {
 }  // namespace
 
 LineTracer::LineTracer(const TraceDomain& domain, const std::vector<std::uint8_t>& barriers,
-                       const TracerSettings& settings)
+                       const TracerSettings& settings, const FinishedLines& finished,
+                       bool remembers)
     : domain_(domain),
       settings_(settings),
-      proximity_(domain.mesh, barriers),
-      walker_(domain, barriers, proximity_),
-      coverage_(domain) {}
+      finished_(finished),
+      proximity_(finished.proximity(), remembers),
+      walker_(domain, barriers, proximity_) {}
 
 ProximityHit LineTracer::look_around(const LineHead& head, double fraction,
                                      const LocalSpacing& spacing) {
@@ -72,11 +74,9 @@ ProximityHit LineTracer::look_around(const LineHead& head, double fraction,
   query.face = head.context.chart.face;
   query.point = world_point(domain_, head.context, head.point);
   query.direction = world_direction(domain_, head.context, head.heading);
-  query.radius = spacing.to_neighbours;
   query.distance = fraction * spacing.to_neighbours;
   query.family = head.family;
   query.by_family = !domain_.field.cross_extended && head.context.reliable;
-  query.own_line = head.line;
   query.own_arc = head.sign * head.arc;
   query.own_skip = kOwnSkip * query.distance;
   query.ignore_barriers = head.from_corner && head.arc < query.own_skip;
@@ -89,15 +89,15 @@ bool LineTracer::fits(const LineHead& head, double fraction) {
 }
 
 void LineTracer::cover(const LineHead& head, const LocalSpacing& spacing) {
-  coverage_.mark(proximity_.cell(), world_point(domain_, head.context, head.point),
-                 world_direction(domain_, head.context, head.heading),
-                 settings_.cover_fraction * spacing.to_neighbours);
+  covered_.push_back({head.context.chart.face, world_point(domain_, head.context, head.point),
+                      world_direction(domain_, head.context, head.heading),
+                      settings_.cover_fraction * spacing.to_neighbours});
 }
 
 /// Whether a line that is too close to another one may get out of these narrows again.
 bool LineTracer::may_go_on(const LineHead& head, const ProximityHit& hit,
                            const LocalSpacing& spacing, double narrows_arc) const {
-  return hit.line != head.line &&
+  return hit.line != kOwnLine &&
          hit.distance >= settings_.narrow_fraction * spacing.to_neighbours &&
          head.arc - narrows_arc <= kLongestNarrows * spacing.to_neighbours;
 }
@@ -117,6 +117,7 @@ void LineTracer::trace_half(LineHead head, bool may_close, double stop_fraction,
   half.end = LineEnd::step_limit;
   LineProgress progress(head);
   std::optional<Narrows> narrows;
+  double next_disc = head.arc;
   const auto closes = [&](double least_cosine) {
     return may_close && close_line(domain_, proximity_, walker_, head, least_cosine, half);
   };
@@ -126,7 +127,7 @@ void LineTracer::trace_half(LineHead head, bool may_close, double stop_fraction,
     const bool is_away = can_close(head, spacing);
     if (is_away && closes(kCloseCosine)) return;
     if (hit.conflict && head.arc > 0) {
-      if ((is_away || hit.line == head.line) && closes(kCloseCosineLast)) return;
+      if ((is_away || hit.line == kOwnLine) && closes(kCloseCosineLast)) return;
       if (!narrows) narrows = {head.arc, half.points.size(), half.crossings.all().size(), hit.line};
       if (!may_go_on(head, hit, spacing, narrows->arc)) {
         turn_back(*narrows, head, half);
@@ -135,7 +136,10 @@ void LineTracer::trace_half(LineHead head, bool may_close, double stop_fraction,
     } else if (narrows && !look_around(head, kWayOut * stop_fraction, spacing).conflict) {
       narrows.reset();
     }
-    if (!narrows) cover(head, spacing);
+    if (!narrows && head.arc >= next_disc) {
+      cover(head, spacing);
+      next_disc = head.arc + kCoverStep * spacing.to_neighbours;
+    }
     const double length = kStepShare * std::min(spacing.to_neighbours, spacing.along);
     const Vec2 direction = runge_kutta(domain_, head, length);
     if (head.context.reliable) {
@@ -158,10 +162,9 @@ void LineTracer::trace_half(LineHead head, bool may_close, double stop_fraction,
   }
 }
 
-std::optional<LineTracer::Halves> LineTracer::trace_halves(const Seed& seed, Index line,
+std::optional<LineTracer::Halves> LineTracer::trace_halves(const Seed& seed,
                                                            double stop_fraction) {
-  LineHead head = start_head(domain_, seed, true);
-  head.line = line;
+  const LineHead head = start_head(domain_, seed, true);
   const double fraction = seed.fills_gap ? settings_.gap_fraction : settings_.seed_fraction;
   if (!fits(head, fraction)) return std::nullopt;
   HalfLine forward(domain_, head);
@@ -170,7 +173,6 @@ std::optional<LineTracer::Halves> LineTracer::trace_halves(const Seed& seed, Ind
   const bool at_border = seed.is_anchored() && domain_.mesh.is_boundary(seed.anchor.halfedge);
   const bool has_other_side = !seed.is_anchored() || (!is_vertex_point(seed.anchor) && !at_border);
   LineHead back = has_other_side ? start_head(domain_, seed, false) : head;
-  back.line = line;
   if (!seed.is_anchored()) {
     back.heading = -head.heading;
     back.trusted = back.heading;
@@ -188,23 +190,22 @@ std::optional<LineTracer::Halves> LineTracer::trace_halves(const Seed& seed, Ind
 }
 
 /// Whether a line ends on both sides beside closed lines, or beside its own other end.
-bool LineTracer::is_arc_among_rings(const Halves& halves, Index line) const {
+bool LineTracer::is_arc_among_rings(const Halves& halves) const {
   const auto stops_there = [&](const HalfLine& half) {
     return half.end == LineEnd::proximity &&
-           (half.stopped_by == line || rings_.contains(half.stopped_by));
+           (half.stopped_by == kOwnLine || finished_.is_ring(half.stopped_by));
   };
   return stops_there(halves.forward) && stops_there(halves.backward);
 }
 
 /// The widest gap between the lines on both sides of a half line, in wanted distances; 0 where
 /// its directions cannot be trusted anywhere.
-double LineTracer::widest_gap(const HalfLine& half, Index line) {
+double LineTracer::widest_gap(const HalfLine& half) {
   double widest = 0;
   const std::vector<Seed>& places = half.crossings.all();
   for (std::size_t i = 0; i < places.size(); i += kStepsPerGap) {
     LineHead head = start_head(domain_, places[i], true);
     head.heading = Vec2(head.heading.y(), -head.heading.x());
-    head.line = line;
     const LineGap gap = gap_beside(domain_, head, proximity_);
     widest = std::max(widest, (gap.to_left + gap.to_right) / gap.wanted);
   }
@@ -213,53 +214,55 @@ double LineTracer::widest_gap(const HalfLine& half, Index line) {
 
 /// What becomes of an arc between closed lines: among rings it should be one, or not be at all.
 ///
-/// Where no seed would have been placed to fill its gap it is left out; its coverage marks stay, so
-/// that it is not tried again. Else it may go on through narrows from the middle of the gap, and
-/// stays an arc where that does not close it.
-std::optional<LineTracer::Halves> LineTracer::trace_ring(const Seed& seed, Index line,
-                                                         const Halves& arc) {
-  const std::size_t segments_after = proximity_.segment_count();
-  const std::size_t segments_before =
-      segments_after - arc.forward.points.size() - arc.backward.points.size();
-  const double gap = std::max(widest_gap(arc.forward, line), widest_gap(arc.backward, line));
-  proximity_.shrink(segments_before);
-  const bool is_alone = arc.forward.stopped_by == line && arc.backward.stopped_by == line;
+/// Where no seed would have been placed to fill its gap it is left out. Else it may go on through
+/// narrows from the middle of the gap, and stays an arc where that does not close it.
+std::optional<LineTracer::Halves> LineTracer::trace_ring(const Seed& seed, const Halves& arc) {
+  const std::size_t arc_segments = proximity_.recorded().size();
+  const double gap = std::max(widest_gap(arc.forward), widest_gap(arc.backward));
+  proximity_.shrink(0);
+  const bool is_alone = arc.forward.stopped_by == kOwnLine && arc.backward.stopped_by == kOwnLine;
   if (gap < 2 * settings_.gap_fraction && !is_alone) return std::nullopt;
   const double fraction = std::min(settings_.narrow_fraction, settings_.stop_fraction);
-  auto ring = trace_halves(centred(domain_, seed, proximity_), line, fraction);
+  auto ring = trace_halves(centred(domain_, seed, proximity_), fraction);
   // A line that only meets itself is a ring all but closed, or a spiral, as on a knotted tube: that
   // must not wind on more closely.
-  const std::size_t longest = is_alone ? 3 * (segments_after - segments_before) / 2 : SIZE_MAX;
+  const std::size_t longest = is_alone ? 3 * arc_segments / 2 : SIZE_MAX;
   if (ring && ring->forward.end == LineEnd::closed && ring->forward.points.size() <= longest) {
     return ring;
   }
-  proximity_.shrink(segments_before);
-  return trace_halves(seed, line, settings_.stop_fraction);
+  proximity_.shrink(0);
+  return trace_halves(seed, settings_.stop_fraction);
 }
 
-bool LineTracer::trace(const Seed& seed, Index line, TracedLine& result,
-                       std::vector<Seed>& spawned) {
-  const std::size_t segments_before = proximity_.segment_count();
-  std::optional<Halves> halves = trace_halves(seed, line, settings_.stop_fraction);
-  if (halves && !seed.is_anchored() && is_arc_among_rings(*halves, line)) {
-    halves = trace_ring(seed, line, *halves);
-  }
-  if (!halves) return false;
-  const auto& [forward, backward, spacing_along, family] = *halves;
-  result.family = family;
-  result.start_reason = backward.end;
-  result.end_reason = forward.end;
-  const bool is_joined = join(domain_.mesh, forward, backward, seed, result);
+/// Joins the halves; false where they make no line that can stay.
+bool LineTracer::finish(const Seed& seed, const Halves& halves, LineDraft& draft) const {
+  const auto& [forward, backward, spacing_along, family] = halves;
+  draft.line.family = family;
+  draft.line.start_reason = backward.end;
+  draft.line.end_reason = forward.end;
+  if (!join(domain_.mesh, forward, backward, seed, draft.line)) return false;
   const bool ends_near_a_line =
       backward.end == LineEnd::proximity || forward.end == LineEnd::proximity;
-  if (!is_joined || (ends_near_a_line && length_of(domain_.mesh, result) < spacing_along)) {
-    proximity_.shrink(segments_before);
-    return false;
-  }
-  if (forward.end == LineEnd::closed) rings_.insert(line);
-  forward.crossings.spawn(forward.end == LineEnd::closed, spawned);
-  backward.crossings.spawn(false, spawned);
+  if (ends_near_a_line && length_of(domain_.mesh, draft.line) < spacing_along) return false;
+  forward.crossings.spawn(forward.end == LineEnd::closed, draft.spawned);
+  backward.crossings.spawn(false, draft.spawned);
   return true;
+}
+
+LineDraft LineTracer::trace(const Seed& seed) {
+  proximity_.clear();
+  covered_.clear();
+  LineDraft draft;
+  std::optional<Halves> halves = trace_halves(seed, settings_.stop_fraction);
+  if (halves && !seed.is_anchored() && is_arc_among_rings(*halves)) {
+    halves = trace_ring(seed, *halves);
+  }
+  draft.is_line = halves && finish(seed, *halves, draft);
+  if (draft.is_line) draft.segments = proximity_.recorded();
+  draft.covered = covered_;
+  draft.asked = proximity_.asked();
+  draft.query_count = proximity_.query_count();
+  return draft;
 }
 
 }  // namespace strake

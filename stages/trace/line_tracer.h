@@ -1,10 +1,10 @@
 #pragma once
 
 #include <optional>
-#include <unordered_set>
 #include <vector>
 
 #include "stages/trace/coverage.h"
+#include "stages/trace/finished_lines.h"
 #include "stages/trace/half_line.h"
 #include "stages/trace/proximity.h"
 #include "stages/trace/sampling.h"
@@ -31,26 +31,39 @@ struct TracerSettings {
                                  ///< it gets out of such narrows, or closes, behind them
 };
 
-/// Traces lines one by one and keeps what later lines must respect ([MK04] sections 3 and 4.2).
+/// What came of a seed.
+struct LineDraft {
+  bool is_line = false;  ///< else too close to a line of its direction, too short, or an arc
+                         ///< between closed lines that is not needed
+  TracedLine line;
+  std::vector<Seed> spawned;          ///< for lines that cross this one, at their wanted distances
+  std::vector<LineSegment> segments;  ///< for the proximity index
+  std::vector<CoveredDisc> covered;   ///< also where there is no line, so that nothing is tried
+                                      ///< there again
+  Questions asked;                    ///< empty where the tracer does not remember
+  std::int64_t query_count = 0;
+};
+
+/// Traces lines among those that are finished, one at a time ([MK04] sections 3 and 4.2).
+///
+/// Changes nothing but itself: tracers on several threads may share what is finished.
 class LineTracer {
  public:
-  /// \param barriers [3F] half-edges of feature and boundary lines; kept by reference
+  /// \param barriers [3F] half-edges of feature and boundary lines
+  /// \param finished  all kept by reference
+  /// \param remembers  whether drafts shall tell what they depend on
   LineTracer(const TraceDomain& domain, const std::vector<std::uint8_t>& barriers,
-             const TracerSettings& settings);
+             const TracerSettings& settings, const FinishedLines& finished, bool remembers);
   LineTracer(const LineTracer&) = delete;  // its parts hold references to each other
   LineTracer& operator=(const LineTracer&) = delete;
 
   /// Traces the line of a seed in both directions.
-  /// \param spawned receives seeds for lines that cross this one, at their wanted distances
-  /// \return false where the seed is too close to a line of its direction, the line too short, or
-  ///         an arc between closed lines that is not needed
-  bool trace(const Seed& seed, Index line, TracedLine& result, std::vector<Seed>& spawned);
+  LineDraft trace(const Seed& seed);
 
-  [[nodiscard]] const Coverage& coverage() const { return coverage_; }
-  [[nodiscard]] ProximityIndex& proximity() { return proximity_; }
+  [[nodiscard]] ProximityProbe& proximity() { return proximity_; }
 
  private:
-  /// Both halves of a line, with their segments in the proximity index.
+  /// Both halves of a line, with their segments in the probe.
   struct Halves {
     HalfLine forward;
     HalfLine backward;
@@ -73,17 +86,18 @@ class LineTracer {
                                const LocalSpacing& spacing, double narrows_arc) const;
   void turn_back(const Narrows& narrows, LineHead& head, HalfLine& half);
   void trace_half(LineHead head, bool may_close, double stop_fraction, HalfLine& half);
-  std::optional<Halves> trace_halves(const Seed& seed, Index line, double stop_fraction);
-  bool is_arc_among_rings(const Halves& halves, Index line) const;
-  double widest_gap(const HalfLine& half, Index line);
-  std::optional<Halves> trace_ring(const Seed& seed, Index line, const Halves& arc);
+  std::optional<Halves> trace_halves(const Seed& seed, double stop_fraction);
+  [[nodiscard]] bool is_arc_among_rings(const Halves& halves) const;
+  double widest_gap(const HalfLine& half);
+  std::optional<Halves> trace_ring(const Seed& seed, const Halves& arc);
+  bool finish(const Seed& seed, const Halves& halves, LineDraft& draft) const;
 
   const TraceDomain& domain_;
   TracerSettings settings_;
-  ProximityIndex proximity_;
+  const FinishedLines& finished_;
+  ProximityProbe proximity_;
   LineWalker walker_;
-  Coverage coverage_;
-  std::unordered_set<Index> rings_;  ///< closed lines
+  std::vector<CoveredDisc> covered_;
 };
 
 }  // namespace strake

@@ -1,22 +1,29 @@
 #pragma once
 
-#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "common/core/line_set.h"
 #include "common/core/tri_mesh.h"
+#include "stages/trace/face_blocks.h"
 
 namespace strake {
+
+/// Stands for a line that is being traced, and has no number yet.
+inline constexpr Index kOwnLine = kNone - 1;
 
 /// A straight piece of a line inside one face, as the proximity queries see it.
 struct LineSegment {
   Vec3 a;
   Vec3 b;
   Vec3 direction;  ///< unit, in the sense the line runs
-  Index line = kNone;
-  double arc = 0;  ///< signed length along the line from its seed, at the middle
+  Index face = kNone;
+  Index line = kOwnLine;
   LineFamily family = LineFamily::minimum;
-  Index next = kNone;  ///< in the list of the same face
+  Index next = kNone;  ///< in the list of the same block
 };
 
 /// What a query asks for: is a line of the same direction closer than `distance`?
@@ -24,78 +31,117 @@ struct ProximityQuery {
   Index face = kNone;
   Vec3 point;
   Vec3 direction;       ///< unit
-  double radius = 0;    ///< of the p-cell
-  double distance = 0;  ///< conflicts are closer than this, at most `radius`
+  double distance = 0;  ///< conflicts are closer than this
   LineFamily family = LineFamily::minimum;
   bool by_family = false;  ///< compare families instead of directions ([MK04] section 4.2)
-  Index own_line = kNone;
-  double own_arc = 0;
-  double own_skip = 0;  ///< pieces of the own line nearer than this along the line, to their
-                        ///< nearer ends, do not count
+  double own_arc = 0;      ///< signed length along the own line from its seed
+  double own_skip = 0;     ///< pieces of the own line nearer than this along the line, to their
+                           ///< nearer ends, do not count
   bool ignore_barriers = false;  ///< for a line that has just left a corner of the feature graph
+
+  /// Whether a piece of a line counts by its direction.
+  [[nodiscard]] bool is_alike(const LineSegment& segment) const {
+    return by_family ? segment.family == family : is_alike(segment.direction);
+  }
+  [[nodiscard]] bool is_alike(const Vec3& unit) const {
+    return std::abs(unit.dot(direction)) > M_SQRT1_2;
+  }
 };
 
 struct ProximityHit {
   bool conflict = false;
-  Index line = kNone;  ///< that the conflict is with; kNone for a barrier
+  Index line = kNone;  ///< that the conflict is with; kNone for a barrier, kOwnLine for itself
   double distance = 0;
 };
 
-/// Line samples kept per face, and the p-cell walk over faces ([MK04] section 3.2).
-///
-/// Cells grow over the surface, never through space, and end at barriers (features and boundary),
-/// which count as lines themselves.
+/// Queries, and the blocks that each of them looked at.
+struct Questions {
+  std::vector<ProximityQuery> queries;
+  std::vector<std::size_t> first_block;  ///< [Q] into blocks
+  std::vector<Index> blocks;
+};
+
+/// The pieces of all finished lines, by block, and the barriers.
 class ProximityIndex {
  public:
-  /// \param barriers [3F] half-edges of feature and boundary lines; kept by reference
-  ProximityIndex(const TriMesh& mesh, const std::vector<std::uint8_t>& barriers);
+  /// \param barriers [3F] half-edges of feature and boundary lines, where blocks end; all kept by
+  ///                 reference
+  ProximityIndex(const FaceBlocks& blocks, const std::vector<std::uint8_t>& barriers);
 
-  void insert(Index face, LineSegment segment);
-  /// Takes back the `count` segments inserted last.
-  void remove_last(std::size_t count);
-  /// Takes back the segments inserted last, down to `count` of them.
-  void shrink(std::size_t count) { remove_last(segments_.size() - count); }
-  [[nodiscard]] std::size_t segment_count() const { return segments_.size(); }
+  /// Adds a finished line.
+  void insert(std::span<const LineSegment> segments, Index line);
+
+  /// Whether segments from number `since` on may change the answer to one of these questions.
+  [[nodiscard]] bool has_news(const Questions& asked, Index since) const;
+
+  [[nodiscard]] Index segment_count() const { return static_cast<Index>(segments_.size()); }
+  [[nodiscard]] const FaceBlocks& blocks() const { return blocks_; }
+
+  /// Calls use(segment) for the segments in a block from number `since` on, latest first.
+  template <class Use>
+  void for_segments(Index block, Index since, const Use& use) const {
+    for (Index s = head_[block]; s >= since && s != kNone; s = segments_[s].next) use(segments_[s]);
+  }
+  /// Calls use(a, b) with the ends of the barrier edges around a block.
+  template <class Use>
+  void for_barriers(Index block, const Use& use) const {
+    const TriMesh& mesh = blocks_.mesh();
+    for (Index at = first_barrier_[block]; at < first_barrier_[block + 1]; ++at) {
+      use(mesh.positions[mesh.from(barriers_[at])], mesh.positions[mesh.to(barriers_[at])]);
+    }
+  }
+
+ private:
+  const FaceBlocks& blocks_;
+  std::vector<Index> first_barrier_;  ///< [B + 1] into barriers_
+  std::vector<Index> barriers_;       ///< half-edges
+  std::vector<LineSegment> segments_;
+  std::vector<Index> head_;  ///< [B] latest segment
+};
+
+/// What one line sees around it: finished lines, barriers, and what it has recorded itself.
+///
+/// Remembers what it was asked, so that it can be told later whether lines finished since would
+/// have changed an answer.
+class ProximityProbe {
+ public:
+  /// \param index  kept by reference
+  /// \param remembers  whether it keeps its questions
+  ProximityProbe(const ProximityIndex& index, bool remembers);
+
+  /// Forgets the own line and all questions.
+  void clear();
+
+  /// Appends a piece to the own line. \param arc  signed length from the seed, at its middle
+  void record(const LineSegment& segment, double arc);
+  /// Takes back the pieces recorded last, down to `count` of them.
+  void shrink(std::size_t count);
+  [[nodiscard]] const std::vector<LineSegment>& recorded() const { return segments_; }
+  [[nodiscard]] const Questions& asked() const { return asked_; }
 
   ProximityHit query(const ProximityQuery& query);
   /// Distances to the nearest line of the same direction on the side that `left` points to and on
-  /// the other one; the radius where there is none. Barriers count, the own line does not.
+  /// the other one; the query's distance where there is none. Barriers count, the own line does
+  /// not.
   std::pair<double, double> distances_beside(const ProximityQuery& query, const Vec3& left);
-  /// Whether `face` was in the cell of the last query.
-  [[nodiscard]] bool in_cell(Index face) const { return stamp_[face] == current_; }
 
-  /// The faces of the last query's cell.
-  [[nodiscard]] const std::vector<Index>& cell() const { return cell_; }
+  /// Whether a walk from a point of a face comes to the block of another one within a distance.
+  bool can_reach(Index face, const Vec3& point, double distance, Index target);
 
-  [[nodiscard]] std::uint64_t query_count() const { return query_count_; }
+  /// Questions since it was cleared.
+  [[nodiscard]] std::int64_t query_count() const { return query_count_; }
 
  private:
-  /// What walking over a face takes, side by side in memory: most of a cell's faces lie within it
-  /// as a whole, and need no look at their corners.
-  struct Tile {
-    std::array<float, 3> centre;
-    float radius;                    ///< of a ball around `centre` that holds the face, rounded up
-    std::array<Index, 3> neighbour;  ///< face across each edge; kNone at barriers
-    Index head = kNone;              ///< first segment
-  };
+  const std::vector<Index>& look(const ProximityQuery& query);
 
-  void grow_cell(Index face, const Vec3& point, double radius);
-  void collect_cell(Index face, const Vec3& point, double radius);
-  [[nodiscard]] static bool is_occupied(const Tile& tile);
-
-  const TriMesh& mesh_;
-  const std::vector<std::uint8_t>& barriers_;
+  const ProximityIndex& index_;
+  BlockWalk walk_;
   std::vector<LineSegment> segments_;
-  std::vector<Index> segment_face_;
-  std::vector<Tile> tiles_;           ///< [F]
-  std::vector<std::uint32_t> stamp_;  ///< [F] cell the face was last part of
-  std::uint32_t current_ = 0;
-  Index cell_face_ = kNone;  ///< what the cell was grown from
-  Vec3 cell_point_ = Vec3::Zero();
-  double cell_radius_ = 0;
-  std::vector<Index> cell_;
-  std::vector<Index> occupied_;  ///< faces of the cell with segments or barriers
-  std::uint64_t query_count_ = 0;
+  std::vector<double> arcs_;
+  std::vector<Index> head_;  ///< [B] latest own segment
+  bool remembers_;
+  Questions asked_;
+  std::int64_t query_count_ = 0;
 };
 
 }  // namespace strake

@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <random>
 
 #include "common/core/error.h"
@@ -11,7 +10,7 @@
 #include "common/geometry/mesh_measures.h"
 #include "common/geometry/topology/topology.h"
 #include "stages/trace/barrier_lines.h"
-#include "stages/trace/line_tracer.h"
+#include "stages/trace/line_collector.h"
 #include "stages/trace/spacing.h"
 
 namespace strake {
@@ -66,94 +65,6 @@ std::vector<Seed> random_seeds(const TraceDomain& domain, std::int64_t random_se
   for (auto& [value, seed] : seeds) result.push_back(seed);
   return result;
 }
-
-Seed seed_of(const Coverage::Gap& gap) {
-  Seed seed;
-  seed.face = gap.face;
-  seed.barycentric = gap.barycentric;
-  seed.direction = gap.direction;
-  seed.fills_gap = true;
-  return seed;
-}
-
-/// Traces seeds first come, first served, and collects the lines.
-class LineCollector {
- public:
-  LineCollector(const TraceDomain& domain, const std::vector<std::uint8_t>& barriers,
-                const TracerSettings& settings, Observer& observer)
-      : domain_(domain),
-        settings_(settings),
-        tracer_(domain, barriers, settings),
-        observer_(observer) {}
-
-  LineTracer& tracer() { return tracer_; }
-  LineSet& lines() { return lines_; }
-
-  void add(const TracedLine& line) {
-    lines_.points.insert(lines_.points.end(), line.points.begin(), line.points.end());
-    lines_.chord_face.insert(lines_.chord_face.end(), line.chord_face.begin(),
-                             line.chord_face.end());
-    lines_.chord_family.insert(lines_.chord_family.end(), line.chord_family.begin(),
-                               line.chord_family.end());
-    lines_.seed_point.push_back(lines_.offsets.back() + line.seed_point);
-    lines_.offsets.push_back(static_cast<Index>(lines_.points.size()));
-    lines_.family.push_back(line.family);
-    lines_.start_reason.push_back(line.start_reason);
-    lines_.end_reason.push_back(line.end_reason);
-  }
-
-  /// Traces these seeds, and all seeds that their lines spawn.
-  void grow(const std::vector<Seed>& seeds) {
-    std::deque<Seed> queue(seeds.begin(), seeds.end());
-    std::vector<Seed> spawned;
-    while (!queue.empty()) {
-      const Seed seed = queue.front();
-      queue.pop_front();
-      // Also while gaps are filled, so that a run can be interrupted at any time.
-      if (++tried_ % 64 == 0) observer_.report(phase_, tracer_.coverage().covered_share());
-      spawned.clear();
-      TracedLine line;
-      if (!tracer_.trace(seed, lines_.line_count(), line, spawned)) continue;
-      add(line);
-      queue.insert(queue.end(), spawned.begin(), spawned.end());
-    }
-  }
-
-  /// Seeds wherever a direction of the cross has no line within reach.
-  void saturate() {
-    phase_ = "filling gaps";
-    for (Index f = 0; f < domain_.mesh.face_count(); ++f) {
-      tracer_.coverage().for_gaps(f, [&](const Coverage::Gap& gap) {
-        grow({centred(domain_, seed_of(gap), tracer_.proximity())});
-      });
-    }
-  }
-
-  /// Largest distance of a place from the nearest line of each direction of its cross, in wanted
-  /// distances. Only what no line has covered needs a look: the rest is nearer than it is covered.
-  double largest_gap() {
-    double largest = settings_.cover_fraction;
-    for (Index f = 0; f < domain_.mesh.face_count(); ++f) {
-      tracer_.coverage().for_gaps(f, [&](const Coverage::Gap& gap) {
-        const LineGap beside =
-            gap_beside(domain_, start_head(domain_, seed_of(gap), true), tracer_.proximity());
-        largest = std::max(largest, std::min(beside.to_left, beside.to_right) / beside.wanted);
-      });
-    }
-    return largest;
-  }
-
-  [[nodiscard]] std::size_t tried() const { return tried_; }
-
- private:
-  const TraceDomain& domain_;
-  TracerSettings settings_;
-  LineTracer tracer_;
-  Observer& observer_;
-  LineSet lines_;
-  std::size_t tried_ = 0;
-  const char* phase_ = "tracing lines";
-};
 
 /// Spacings as the options ask for them, and the tolerance they stand for.
 std::pair<Spacing, double> choose_spacing(const TriMesh& mesh, const PrincipalField& field,
@@ -246,8 +157,7 @@ TraceResult trace_lines(const TriMesh& mesh, const PrincipalField& field,
   result.report.set("trace.crossings", result.lines.points.size());
   result.report.set("trace.largest_gap", collector.largest_gap());
   result.report.set("trace.seeds_tried", collector.tried());
-  result.report.set("trace.proximity_queries",
-                    static_cast<std::int64_t>(collector.tracer().proximity().query_count()));
+  result.report.set("trace.proximity_queries", collector.query_count());
   result.lines.spacing_along_min = std::move(spacing.along);
   result.lines.spacing_along_max = std::move(spacing.across);
   return result;

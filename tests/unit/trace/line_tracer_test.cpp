@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <stdexcept>
 
 #include "common/geometry/line_chord.h"
@@ -14,6 +15,29 @@
 
 namespace strake {
 namespace {
+
+/// Finished lines, and a tracer that adds to them.
+class Lines {
+ public:
+  Lines(const TraceDomain& domain, const std::vector<std::uint8_t>& barriers,
+        const TracerSettings& settings = {})
+      : finished_(domain, barriers), tracer_(domain, barriers, settings, finished_, true) {}
+
+  LineDraft trace(const Seed& seed) {
+    LineDraft draft = tracer_.trace(seed);
+    finished_.add(draft, count_);
+    count_ += draft.is_line ? 1 : 0;
+    return draft;
+  }
+  /// What would come of a seed.
+  LineDraft try_out(const Seed& seed) { return tracer_.trace(seed); }
+  [[nodiscard]] const ProximityIndex& proximity() const { return finished_.proximity(); }
+
+ private:
+  FinishedLines finished_;
+  LineTracer tracer_;
+  Index count_ = 0;
+};
 
 /// A plane with lines along x and y at constant distances.
 class LinesOnAPlane : public ::testing::Test {
@@ -45,10 +69,10 @@ class LinesOnAPlane : public ::testing::Test {
 };
 
 TEST_F(LinesOnAPlane, AreStraightFromBoundaryToBoundary) {
-  LineTracer tracer(domain_, barriers_, {});
-  TracedLine line;
-  std::vector<Seed> spawned;
-  ASSERT_TRUE(tracer.trace(seed_at(0.13, 0.21, Vec3(0.9, 0.3, 0)), 0, line, spawned));
+  Lines lines(domain_, barriers_);
+  const LineDraft draft = lines.trace(seed_at(0.13, 0.21, Vec3(0.9, 0.3, 0)));
+  ASSERT_TRUE(draft.is_line);
+  const TracedLine& line = draft.line;
   EXPECT_EQ(line.start_reason, LineEnd::boundary);
   EXPECT_EQ(line.end_reason, LineEnd::boundary);
   // Crossings within a thousandth of an edge of a vertex go through the vertex.
@@ -68,12 +92,11 @@ TEST_F(LinesOnAPlane, AreStraightFromBoundaryToBoundary) {
 }
 
 TEST_F(LinesOnAPlane, SpawnCrossingLinesAtTheirDistance) {
-  LineTracer tracer(domain_, barriers_, {});
-  TracedLine line;
-  std::vector<Seed> spawned;
-  ASSERT_TRUE(tracer.trace(seed_at(0, 0, Vec3::UnitX()), 0, line, spawned));
+  Lines lines(domain_, barriers_);
+  const LineDraft draft = lines.trace(seed_at(0, 0, Vec3::UnitX()));
+  ASSERT_TRUE(draft.is_line);
   std::vector<double> at;
-  for (const Seed& seed : spawned) {
+  for (const Seed& seed : draft.spawned) {
     EXPECT_NEAR(std::abs(seed.direction.normalized().y()), 1, 1e-9);
     Vec3 p = Vec3::Zero();
     for (int i = 0; i < 3; ++i) {
@@ -105,10 +128,10 @@ TEST_F(LinesOnAPlane, GoStraightThroughTheEdgeTheyAreAnchoredTo) {
     const Seed seed{TriMesh::face_of(h), Vec3::Constant(1.0 / 3), Vec3::UnitZ().cross(edge),
                     LinePoint{h, 0.2}};
     const double y = line_point_position(mesh_, seed.anchor).y();
-    LineTracer tracer(domain_, barriers_, {});
-    TracedLine line;
-    std::vector<Seed> spawned;
-    ASSERT_TRUE(tracer.trace(seed, 0, line, spawned));
+    Lines lines(domain_, barriers_);
+    const LineDraft draft = lines.trace(seed);
+    ASSERT_TRUE(draft.is_line);
+    const TracedLine& line = draft.line;
     EXPECT_EQ(line.start_reason, LineEnd::boundary);
     EXPECT_EQ(line.end_reason, LineEnd::boundary);
     for (const LinePoint& p : line.points) {
@@ -124,12 +147,9 @@ TEST_F(LinesOnAPlane, GoStraightThroughTheEdgeTheyAreAnchoredTo) {
 
 TEST_F(LinesOnAPlane, KeepTheirDistanceFromEachOther) {
   const TracerSettings settings;
-  LineTracer tracer(domain_, barriers_, settings);
-  std::vector<Seed> spawned;
+  Lines lines(domain_, barriers_, settings);
   const auto traces = [&](double x, double y, const Vec3& direction) {
-    TracedLine line;
-    static Index next = 0;
-    return tracer.trace(seed_at(x, y, direction), next++, line, spawned);
+    return lines.trace(seed_at(x, y, direction)).is_line;
   };
   const Vec3 x = Vec3::UnitX();
   EXPECT_TRUE(traces(0, 0.05, x));
@@ -141,15 +161,51 @@ TEST_F(LinesOnAPlane, KeepTheirDistanceFromEachOther) {
   EXPECT_TRUE(traces(0, -kPlaneHalfSize + 1.1 * kSpacing, x));
 }
 
-TEST_F(LinesOnAPlane, LeaveNoTraceWhereTheyAreRefused) {
-  LineTracer tracer(domain_, barriers_, {});
-  std::vector<Seed> spawned;
-  TracedLine first;
-  ASSERT_TRUE(tracer.trace(seed_at(0, 0, Vec3::UnitX()), 0, first, spawned));
-  const std::size_t before = spawned.size();
-  TracedLine refused;
-  ASSERT_FALSE(tracer.trace(seed_at(0.1, 0.02, Vec3::UnitX()), 1, refused, spawned));
-  EXPECT_EQ(spawned.size(), before);
+TEST_F(LinesOnAPlane, LeaveNothingWhereTheyAreRefused) {
+  Lines lines(domain_, barriers_);
+  ASSERT_TRUE(lines.trace(seed_at(0, 0, Vec3::UnitX())).is_line);
+  const Index before = lines.proximity().segment_count();
+  const LineDraft refused = lines.trace(seed_at(0.1, 0.02, Vec3::UnitX()));
+  EXPECT_FALSE(refused.is_line);
+  EXPECT_TRUE(refused.spawned.empty());
+  EXPECT_EQ(lines.proximity().segment_count(), before);
+}
+
+bool is_same_way(const std::vector<LineSegment>& a, const std::vector<LineSegment>& b) {
+  return std::ranges::equal(
+      a, b, [](const LineSegment& s, const LineSegment& t) { return s.a == t.a && s.b == t.b; });
+}
+
+// The field turns, so that lines run into each other.
+TEST_F(LinesOnAPlane, StayAsTheyAreWhereLinesFinishedSinceAreNoNews) {
+  field_ = field_along(mesh_, [](const Vec3& p) {
+    return Vec3(std::cos(2 * p.x() + p.y()), std::sin(2 * p.x() + p.y()), 0);
+  });
+  Lines lines(domain_, barriers_);
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> uniform(-0.9, 0.9);
+  int news = 0;
+  int stays = 0;
+  int differs = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Seed seed = seed_at(uniform(random), uniform(random), Vec3::UnitX());
+    const Index since = lines.proximity().segment_count();
+    const LineDraft ahead = lines.try_out(seed);
+    lines.trace(seed_at(uniform(random), uniform(random), i % 2 ? Vec3::UnitX() : Vec3::UnitY()));
+    const LineDraft now = lines.try_out(seed);
+    const bool is_same = ahead.is_line == now.is_line &&  is_same_way(ahead.segments, now.segments) &&
+                         ahead.line.end_reason == now.line.end_reason;
+    if (lines.proximity().has_news(ahead.asked, since)) {
+      ++news;
+      differs += is_same ? 0 : 1;
+    } else {
+      EXPECT_TRUE(is_same) << "seed " << i;
+      if (ahead.is_line && lines.proximity().segment_count() > since) ++stays;
+    }
+  }
+  EXPECT_GT(stays, 3);
+  EXPECT_GT(differs, 3);
+  EXPECT_LE(differs, news);
 }
 
 /// Circles on irregular triangles: on the way they turn back over edges and pass vertices, and come
@@ -161,10 +217,10 @@ TEST_F(LinesOnAPlane, CloseWhereTheFieldGoesAround) {
     const double radius = 0.4 + 0.4 * i / 300;
     const double angle = 2.4 * i;  // the golden angle: all around
     const Vec3 p = radius * Vec3(std::cos(angle), std::sin(angle), 0);
-    LineTracer tracer(domain_, barriers_, {});
-    TracedLine line;
-    std::vector<Seed> spawned;
-    ASSERT_TRUE(tracer.trace(seed_at(p.x(), p.y(), Vec3(-p.y(), p.x(), 0)), 0, line, spawned));
+    Lines lines(domain_, barriers_);
+    const LineDraft draft = lines.trace(seed_at(p.x(), p.y(), Vec3(-p.y(), p.x(), 0)));
+    ASSERT_TRUE(draft.is_line);
+    const TracedLine& line = draft.line;
     EXPECT_EQ(line.start_reason, LineEnd::closed) << "circle " << i;
     EXPECT_EQ(line.end_reason, LineEnd::closed) << "circle " << i;
     const std::size_t count = line.points.size();
@@ -191,12 +247,11 @@ TEST_F(LinesOnAPlane, PassNarrowsWhereTheyGetOutAgain) {
       return Vec3(1, p.y() * slope / width(p.x()), 0);
     });
     ASSERT_LT(narrowest, settings.stop_fraction);
-    LineTracer tracer(domain_, barriers_, settings);
-    std::vector<Seed> spawned;
-    TracedLine middle;
-    ASSERT_TRUE(tracer.trace(seed_at(-0.9, 0, Vec3::UnitX()), 0, middle, spawned));
-    TracedLine line;
-    ASSERT_TRUE(tracer.trace(seed_at(-0.9, kSpacing, Vec3::UnitX()), 1, line, spawned));
+    Lines lines(domain_, barriers_, settings);
+    ASSERT_TRUE(lines.trace(seed_at(-0.9, 0, Vec3::UnitX())).is_line);
+    const LineDraft draft = lines.trace(seed_at(-0.9, kSpacing, Vec3::UnitX()));
+    ASSERT_TRUE(draft.is_line);
+    const TracedLine& line = draft.line;
     EXPECT_EQ(line.start_reason, LineEnd::boundary);
     const double end = line_point_position(mesh_, line.points.back()).x();
     if (narrowest > settings.narrow_fraction) {
@@ -229,13 +284,11 @@ TEST(LineTracer, DoesNotWindAroundWhatIsThinnerThanTheDistanceOfLines) {
   const TraceDomain domain{mesh, field, spacing, face_normals(mesh)};
   std::vector<std::uint8_t> barriers(static_cast<std::size_t>(mesh.halfedge_count()), 0);
   for (Index h = 0; h < mesh.halfedge_count(); ++h) barriers[h] = mesh.is_boundary(h);
-  LineTracer tracer(domain, barriers, {});
+  Lines lines(domain, barriers);
   Seed seed;
   seed.face = mesh.face_count() / 2;
   seed.direction = field.cross[mesh.face_wedges[seed.face][0]];
-  TracedLine line;
-  std::vector<Seed> spawned;
-  tracer.trace(seed, 0, line, spawned);
+  const TracedLine line = lines.trace(seed).line;
   double length = 0;
   for (std::size_t i = 1; i < line.points.size(); ++i) {
     length +=

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 #include <random>
+#include <set>
 
 #include "common/core/poly_mesh.h"
 #include "tests/support/mesh_support.h"
@@ -21,44 +22,54 @@ double distance_to(const LineSegment& segment, const Vec3& p) {
   return (segment.a + t * d - p).norm();
 }
 
-/// An index with random segments, and the same segments in a plain list.
+/// Wanted distances that are the same everywhere.
+Spacing even_spacing(const TriMesh& mesh, double distance) {
+  Spacing spacing;
+  spacing.along.assign(mesh.wedge_count(), distance);
+  spacing.across.assign(mesh.wedge_count(), distance);
+  return spacing;
+}
+
+/// An index with random segments, some of them of a line being traced, and the same in plain lists.
 class RandomSegments {
  public:
-  RandomSegments(const TriMesh& mesh, int count, std::uint64_t seed)
-      : mesh_(mesh), barriers_(mesh.halfedge_count(), 0), index_(mesh, barriers_), random_(seed) {
+  /// \param distance  of lines, on which the size of blocks depends
+  RandomSegments(const TriMesh& mesh, double distance, int count, std::uint64_t seed)
+      : mesh_(mesh),
+        barriers_(mesh.halfedge_count(), 0),
+        blocks_(mesh, even_spacing(mesh, distance), barriers_),
+        index_(blocks_, barriers_),
+        probe_(index_, false),
+        random_(seed) {
     for (int i = 0; i < count; ++i) add();
   }
 
-  ProximityIndex& index() { return index_; }
+  ProximityProbe& probe() { return probe_; }
 
+  /// Adds a finished segment.
   void add() {
-    const Index face = random_face();
-    LineSegment segment;
-    segment.a = point_in(face);
-    segment.b = point_in(face);
-    segment.direction = (segment.b - segment.a).normalized();
-    segment.line = static_cast<Index>(random_() % 20);
-    segment.arc = uniform(-2, 2);
-    segment.family = random_() % 2 == 0 ? LineFamily::minimum : LineFamily::maximum;
-    index_.insert(face, segment);
-    all_.push_back(segment);
+    all_.push_back({random_segment(), 0});
+    all_.back().segment.line = static_cast<Index>(random_() % 20);
+    index_.insert({&all_.back().segment, 1}, all_.back().segment.line);
+  }
+  /// Adds one to the line that looks around.
+  void record() {
+    own_.push_back({random_segment(), uniform(-2, 2)});
+    probe_.record(own_.back().segment, own_.back().arc);
+  }
+  void shrink(std::size_t count) {
+    probe_.shrink(count);
+    own_.resize(count);
   }
 
-  void remove_last(std::size_t count) {
-    index_.remove_last(count);
-    all_.resize(all_.size() - count);
-  }
-
-  ProximityQuery random_query(double largest_radius) {
+  ProximityQuery random_query(double largest_distance) {
     ProximityQuery query;
     query.face = random_face();
     query.point = point_in(query.face);
     query.direction = (point_in(query.face) - query.point).normalized();
-    query.radius = uniform(0.01, largest_radius);
-    query.distance = uniform(0.2, 1) * query.radius;
+    query.distance = uniform(0.01, largest_distance);
     query.family = random_() % 2 == 0 ? LineFamily::minimum : LineFamily::maximum;
     query.by_family = random_() % 2 == 0;
-    query.own_line = static_cast<Index>(random_() % 20);
     query.own_arc = uniform(-2, 2);
     query.own_skip = uniform(0, 0.5);
     return query;
@@ -68,28 +79,29 @@ class RandomSegments {
   [[nodiscard]] std::optional<LineSegment> nearest(const ProximityQuery& query) const {
     std::optional<LineSegment> best;
     double best_distance = query.distance;
-    for (const LineSegment& s : all_) {
-      const double way = std::abs(s.arc - query.own_arc) - (s.b - s.a).norm() / 2;
-      if (s.line == query.own_line && way < query.own_skip) continue;
+    const auto consider = [&](const LineSegment& s) {
       const bool alike = query.by_family
                              ? s.family == query.family
                              : std::abs(s.direction.dot(query.direction)) > std::cos(M_PI / 4);
-      if (!alike || distance_to(s, query.point) >= best_distance) continue;
+      if (!alike || distance_to(s, query.point) >= best_distance) return;
       best_distance = distance_to(s, query.point);
       best = s;
+    };
+    for (const Placed& placed : all_) consider(placed.segment);
+    for (const auto& [s, arc] : own_) {
+      if (std::abs(arc - query.own_arc) - (s.b - s.a).norm() / 2 >= query.own_skip) consider(s);
     }
     return best;
   }
 
   /// Compares many queries with the list. \return how many found a conflict
-  int compare(int queries, double largest_radius) {
+  int compare(int queries, double largest_distance) {
     int conflicts = 0;
     for (int i = 0; i < queries; ++i) {
-      const ProximityQuery query = random_query(largest_radius);
-      const ProximityHit hit = index_.query(query);
+      const ProximityQuery query = random_query(largest_distance);
+      const ProximityHit hit = probe_.query(query);
       const std::optional<LineSegment> expected = nearest(query);
       EXPECT_EQ(hit.conflict, expected.has_value());
-      EXPECT_TRUE(index_.in_cell(query.face));
       if (!hit.conflict || !expected) continue;
       ++conflicts;
       EXPECT_NEAR(hit.distance, distance_to(*expected, query.point), 1e-12);
@@ -99,10 +111,24 @@ class RandomSegments {
   }
 
  private:
+  struct Placed {
+    LineSegment segment;
+    double arc;
+  };
+
   double uniform(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random_);
   }
   Index random_face() { return static_cast<Index>(random_() % mesh_.face_count()); }
+  LineSegment random_segment() {
+    LineSegment segment;
+    segment.face = random_face();
+    segment.a = point_in(segment.face);
+    segment.b = point_in(segment.face);
+    segment.direction = (segment.b - segment.a).normalized();
+    segment.family = random_() % 2 == 0 ? LineFamily::minimum : LineFamily::maximum;
+    return segment;
+  }
   Vec3 point_in(Index face) {
     std::exponential_distribution<double> exponential;
     const Vec3 b(exponential(random_), exponential(random_), exponential(random_));
@@ -114,9 +140,12 @@ class RandomSegments {
 
   const TriMesh& mesh_;
   std::vector<std::uint8_t> barriers_;
+  FaceBlocks blocks_;
   ProximityIndex index_;
+  ProximityProbe probe_;
   std::mt19937_64 random_;
-  std::vector<LineSegment> all_;
+  std::vector<Placed> all_;
+  std::vector<Placed> own_;
 };
 
 // On a convex surface every face within reach in space is within reach over the surface: what a
@@ -124,24 +153,29 @@ class RandomSegments {
 
 TEST(Proximity, AgreesWithBruteForceOnAPlane) {
   const TriMesh mesh = sample_mesh(SampleKind::plane, 600, 1);
-  RandomSegments segments(mesh, 300, 1);
-  EXPECT_GT(segments.compare(3000, 0.4), 500);
+  for (const double distance : {0.01, 0.3, 1.0}) {
+    RandomSegments segments(mesh, distance, 300, 1);
+    EXPECT_GT(segments.compare(2000, 0.4), 500);
+  }
 }
 
 TEST(Proximity, AgreesWithBruteForceOnASphere) {
   const TriMesh mesh = sample_mesh(SampleKind::sphere, 600, 1);
-  RandomSegments segments(mesh, 300, 2);
-  EXPECT_GT(segments.compare(3000, 0.6), 500);
+  for (const double distance : {0.01, 0.4, 1.5}) {
+    RandomSegments segments(mesh, distance, 300, 2);
+    EXPECT_GT(segments.compare(2000, 0.6), 500);
+  }
 }
 
-TEST(Proximity, ForgetsWhatIsTakenBack) {
+TEST(Proximity, SeesItsOwnLineAndForgetsWhatIsTakenBack) {
   const TriMesh mesh = sample_mesh(SampleKind::plane, 600, 1);
-  RandomSegments segments(mesh, 100, 3);
-  for (int i = 0; i < 60; ++i) segments.add();
-  segments.remove_last(60);
-  EXPECT_EQ(segments.index().segment_count(), 100);
+  RandomSegments segments(mesh, 0.3, 40, 3);
+  for (int i = 0; i < 160; ++i) segments.record();
   EXPECT_GT(segments.compare(500, 0.4), 50);
-  for (int i = 0; i < 40; ++i) segments.add();
+  segments.shrink(60);
+  EXPECT_EQ(segments.probe().recorded().size(), 60);
+  EXPECT_GT(segments.compare(500, 0.4), 50);
+  for (int i = 0; i < 40; ++i) segments.record();
   EXPECT_GT(segments.compare(500, 0.4), 50);
 }
 
@@ -179,12 +213,12 @@ Index face_at(const TriMesh& mesh, const Vec3& point) {
   return best;
 }
 
-LineSegment segment_along_y(const Vec3& middle) {
+LineSegment segment_along_y(const TriMesh& mesh, const Vec3& middle) {
   LineSegment segment;
+  segment.face = face_at(mesh, middle);
   segment.a = middle - 0.01 * Vec3::UnitY();
   segment.b = middle + 0.01 * Vec3::UnitY();
   segment.direction = Vec3::UnitY();
-  segment.line = 1;
   return segment;
 }
 
@@ -193,25 +227,45 @@ ProximityQuery query_along_y(const TriMesh& mesh, const Vec3& point) {
   query.face = face_at(mesh, point);
   query.point = point;
   query.direction = Vec3::UnitY();
-  query.radius = 0.2;
   query.distance = 0.2;
-  query.own_line = 0;
   return query;
 }
 
+/// A hairpin with segments along y, and what a line sees there.
+class Hairpin {
+ public:
+  Hairpin(double gap, double distance, const std::vector<std::uint8_t>& barriers)
+      : mesh_(hairpin(gap)),
+        barriers_(barriers),
+        blocks_(mesh_, even_spacing(mesh_, distance), barriers_),
+        index_(blocks_, barriers_),
+        probe_(index_, false) {}
+
+  void insert(const Vec3& middle) {
+    const LineSegment segment = segment_along_y(mesh_, middle);
+    index_.insert({&segment, 1}, 1);
+  }
+  ProximityHit query(const Vec3& point) { return probe_.query(query_along_y(mesh_, point)); }
+  ProximityHit query(const ProximityQuery& query) { return probe_.query(query); }
+
+ private:
+  TriMesh mesh_;
+  std::vector<std::uint8_t> barriers_;
+  FaceBlocks blocks_;
+  ProximityIndex index_;
+  ProximityProbe probe_;
+};
+
 TEST(Proximity, ReachesOverTheSurfaceAndNeverThroughSpace) {
   const double gap = 0.01;
-  const TriMesh mesh = hairpin(gap);
-  const std::vector<std::uint8_t> barriers(mesh.halfedge_count(), 0);
-  ProximityIndex index(mesh, barriers);
-  const Vec3 far(0.3, 0, gap);  // on the upper sheet, 1.4 away over the surface
-  index.insert(face_at(mesh, far), segment_along_y(far));
-  EXPECT_FALSE(index.query(query_along_y(mesh, Vec3(0.3, 0, 0))).conflict);
-  EXPECT_TRUE(index.query(query_along_y(mesh, Vec3(0.35, 0, gap))).conflict);
-  const Vec3 round_the_bend(0.97, 0, gap);
-  index.insert(face_at(mesh, round_the_bend), segment_along_y(round_the_bend));
-  const ProximityHit hit = index.query(query_along_y(mesh, Vec3(0.95, 0, 0)));
-  EXPECT_TRUE(hit.conflict) << "over the end the way is short";
+  for (const double distance : {0.02, 0.2}) {  // blocks of one face, and of several
+    Hairpin surface(gap, distance, std::vector<std::uint8_t>(hairpin(gap).halfedge_count(), 0));
+    surface.insert(Vec3(0.3, 0, gap));  // on the upper sheet, 1.4 away over the surface
+    EXPECT_FALSE(surface.query(Vec3(0.3, 0, 0)).conflict);
+    EXPECT_TRUE(surface.query(Vec3(0.35, 0, gap)).conflict);
+    surface.insert(Vec3(0.97, 0, gap));
+    EXPECT_TRUE(surface.query(Vec3(0.95, 0, 0)).conflict) << "over the end the way is short";
+  }
 }
 
 /// Marks the edges across a flat strip at x = where as barriers, on both sides.
@@ -231,22 +285,51 @@ std::vector<std::uint8_t> wall(const TriMesh& mesh, double where) {
 
 TEST(Proximity, EndsAtBarriersWhichCountAsLines) {
   const TriMesh mesh = hairpin(0.5);
+  for (const double distance : {0.02, 0.2, 1.0}) {
+    Hairpin surface(0.5, distance, wall(mesh, 0.5));
+    surface.insert(Vec3(0.52, 0, 0));
+    ProximityQuery query = query_along_y(mesh, Vec3(0.44, 0.02, 0));
+    const ProximityHit wall_hit = surface.query(query);
+    EXPECT_TRUE(wall_hit.conflict);
+    EXPECT_EQ(wall_hit.line, kNone);
+    EXPECT_NEAR(wall_hit.distance, 0.06, 1e-12);
+    query.ignore_barriers = true;
+    EXPECT_FALSE(surface.query(query).conflict) << "nothing is seen across it all the same";
+    query.ignore_barriers = false;
+    query.direction = Vec3::UnitX();
+    EXPECT_FALSE(surface.query(query).conflict) << "a line that meets it at a right angle goes on";
+    EXPECT_NEAR(surface.query(Vec3(0.56, 0, 0)).distance, 0.04, 1e-12)
+        << "on its own side the segment counts";
+  }
+}
+
+// What each block is for: it holds together, is small, and ends at barriers.
+TEST(FaceBlocks, DivideAMeshIntoSmallConnectedPieces) {
+  const TriMesh mesh = hairpin(0.5);
   const std::vector<std::uint8_t> barriers = wall(mesh, 0.5);
-  ProximityIndex index(mesh, barriers);
-  const Vec3 beyond(0.52, 0, 0);
-  index.insert(face_at(mesh, beyond), segment_along_y(beyond));
-  ProximityQuery query = query_along_y(mesh, Vec3(0.44, 0.02, 0));
-  const ProximityHit wall_hit = index.query(query);
-  EXPECT_TRUE(wall_hit.conflict);
-  EXPECT_EQ(wall_hit.line, kNone);
-  EXPECT_NEAR(wall_hit.distance, 0.06, 1e-12);
-  query.ignore_barriers = true;
-  EXPECT_FALSE(index.query(query).conflict) << "nothing is seen across it all the same";
-  query.ignore_barriers = false;
-  query.direction = Vec3::UnitX();
-  EXPECT_FALSE(index.query(query).conflict) << "a line that meets it at a right angle goes on";
-  query = query_along_y(mesh, Vec3(0.56, 0, 0));
-  EXPECT_NEAR(index.query(query).distance, 0.04, 1e-12) << "on its own side the segment counts";
+  for (const double distance : {0.02, 0.2, 0.6}) {
+    const FaceBlocks blocks(mesh, even_spacing(mesh, distance), barriers);
+    std::vector<int> seen(mesh.face_count(), 0);
+    for (Index block = 0; block < blocks.count(); ++block) {
+      std::set<Index> left(blocks.faces(block).begin(), blocks.faces(block).end());
+      std::vector<Index> reached = {*left.begin()};
+      left.erase(left.begin());
+      while (!reached.empty()) {
+        const Index f = reached.back();
+        reached.pop_back();
+        ++seen[f];
+        EXPECT_EQ(blocks.block_of(f), block);
+        for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+          if (barriers[h] != 0 || mesh.twin[h] == kNone) continue;
+          const Index other = TriMesh::face_of(mesh.twin[h]);
+          if (left.erase(other) > 0) reached.push_back(other);
+        }
+      }
+      EXPECT_TRUE(left.empty()) << "connected without crossing the wall";
+    }
+    EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), mesh.face_count());
+    EXPECT_EQ(blocks.count() < mesh.face_count() / 2, distance > 0.1);
+  }
 }
 
 }  // namespace

@@ -1,0 +1,142 @@
+#include "stages/trace/face_blocks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "common/geometry/segment.h"
+
+namespace strake {
+namespace {
+
+/// Largest radius of a block, as a share of the smallest line distance there.
+constexpr double kBlockSize = 0.5;
+/// Share of the largest coordinate by which single precision may round a place, doubled.
+constexpr double kRounding = 2.5e-7;
+
+Vec3 centroid(const TriMesh& mesh, Index face) {
+  const auto& [a, b, c] = mesh.faces[face];
+  return (mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3;
+}
+
+double largest_coordinate(const TriMesh& mesh) {
+  double largest = 0;
+  for (const Vec3& p : mesh.positions) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  return largest;
+}
+
+double least_spacing(const TriMesh& mesh, const Spacing& spacing, Index face) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Index w : mesh.face_wedges[face]) {
+    least = std::min({least, spacing.along[w], spacing.across[w]});
+  }
+  return least;
+}
+
+}  // namespace
+
+FaceBlocks::FaceBlocks(const TriMesh& mesh, const Spacing& spacing,
+                       const std::vector<std::uint8_t>& barriers)
+    : mesh_(mesh), barriers_(barriers), block_of_(mesh.face_count(), kNone) {
+  const double rounding = kRounding * largest_coordinate(mesh);
+  faces_.reserve(mesh.face_count());
+  first_face_.push_back(0);
+  for (Index first = 0; first < mesh.face_count(); ++first) {
+    if (block_of_[first] != kNone) continue;
+    gather(first, kBlockSize * least_spacing(mesh, spacing, first));
+    balls_.push_back(ball_around(faces(count()), rounding));
+  }
+  find_ways();
+}
+
+/// Appends the next block: what is connected to a face, free yet, and near to its middle.
+void FaceBlocks::gather(Index first, double size) {
+  const Index block = count();
+  const std::size_t begin = faces_.size();
+  const Vec3 middle = centroid(mesh_, first);
+  const auto is_near = [&](Index v) {
+    return (mesh_.positions[v] - middle).squaredNorm() <= size * size;
+  };
+  block_of_[first] = block;
+  faces_.push_back(first);
+  for (std::size_t at = begin; at < faces_.size(); ++at) {
+    for (Index h = 3 * faces_[at], i = 0; i < 3; ++i, ++h) {
+      if (ends_at(h)) continue;
+      const Index other = TriMesh::face_of(mesh_.twin[h]);
+      if (block_of_[other] != kNone || !std::ranges::all_of(mesh_.faces[other], is_near)) continue;
+      block_of_[other] = block;
+      faces_.push_back(other);
+    }
+  }
+  first_face_.push_back(static_cast<Index>(faces_.size()));
+}
+
+FaceBlocks::Ball FaceBlocks::ball_around(std::span<const Index> faces, double rounding) const {
+  Vec3 centre = Vec3::Zero();
+  for (const Index f : faces) centre += centroid(mesh_, f);
+  centre /= static_cast<double>(faces.size());
+  double radius = 0;
+  for (const Index f : faces) {
+    for (const Index v : mesh_.faces[f]) {
+      radius = std::max(radius, (mesh_.positions[v] - centre).squaredNorm());
+    }
+  }
+  Ball ball;
+  for (int i = 0; i < 3; ++i) ball.centre[i] = static_cast<float>(centre[i]);
+  ball.radius = static_cast<float>(std::sqrt(radius) + rounding);
+  return ball;
+}
+
+void FaceBlocks::find_ways() {
+  std::vector<Index> seen_from(count(), kNone);
+  first_way_.push_back(0);
+  for (Index block = 0; block < count(); ++block) {
+    for (const Index f : faces(block)) {
+      for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+        if (ends_at(h)) continue;
+        const Index other = block_of_[TriMesh::face_of(mesh_.twin[h])];
+        if (other == block) continue;
+        // The edges of large faces: their balls tell little.
+        if (is_single(block) || is_single(other)) {
+          ways_.push_back({other, h});
+        } else if (std::exchange(seen_from[other], block) != block) {
+          ways_.push_back({other, kNone});
+        }
+      }
+    }
+    first_way_.push_back(static_cast<Index>(ways_.size()));
+  }
+}
+
+const std::vector<Index>& BlockWalk::around(Index face, const Vec3& point, double distance) {
+  if (++current_ == 0) {
+    std::fill(stamp_.begin(), stamp_.end(), 0U);
+    current_ = 1;
+  }
+  const TriMesh& mesh = blocks_.mesh_;
+  const Index first = blocks_.block_of(face);
+  stamp_[first] = current_;
+  cell_.assign(1, first);
+  for (std::size_t at = 0; at < cell_.size(); ++at) {
+    const Index block = cell_[at];
+    for (Index w = blocks_.first_way_[block]; w < blocks_.first_way_[block + 1]; ++w) {
+      const auto [other, h] = blocks_.ways_[w];
+      if (stamp_[other] == current_) continue;
+      const FaceBlocks::Ball& ball = blocks_.balls_[other];
+      const Vec3 centre(ball.centre[0], ball.centre[1], ball.centre[2]);
+      const double reach = distance + ball.radius;
+      if ((centre - point).squaredNorm() > reach * reach) continue;
+      if (h != kNone && (way_to_segment(point, mesh.positions[mesh.from(h)],
+                                        mesh.positions[mesh.to(h)])
+                             .squaredNorm() > distance * distance)) {
+        continue;
+      }
+      stamp_[other] = current_;
+      cell_.push_back(other);
+    }
+  }
+  return cell_;
+}
+
+}  // namespace strake

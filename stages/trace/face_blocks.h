@@ -1,0 +1,84 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/core/tri_mesh.h"
+#include "stages/trace/spacing.h"
+
+namespace strake {
+
+/// The faces of a mesh in connected blocks that are small against the wanted distances of lines, so
+/// that a look around takes a few steps however fine the mesh is.
+///
+/// A face as large as a block is one of its own. No block reaches across a barrier.
+class FaceBlocks {
+ public:
+  /// \param barriers [3F] half-edges that walks and blocks end at, as at the boundary; kept by
+  ///                 reference
+  FaceBlocks(const TriMesh& mesh, const Spacing& spacing,
+             const std::vector<std::uint8_t>& barriers);
+
+  [[nodiscard]] Index count() const { return static_cast<Index>(balls_.size()); }
+  [[nodiscard]] Index block_of(Index face) const { return block_of_[face]; }
+  [[nodiscard]] std::span<const Index> faces(Index block) const {
+    return {faces_.data() + first_face_[block], faces_.data() + first_face_[block + 1]};
+  }
+  [[nodiscard]] bool is_single(Index block) const { return faces(block).size() == 1; }
+  [[nodiscard]] const TriMesh& mesh() const { return mesh_; }
+
+ private:
+  friend class BlockWalk;
+
+  /// Holds a block; single precision, rounded up.
+  struct Ball {
+    std::array<float, 3> centre;
+    float radius;
+  };
+  /// A way into a neighbouring block: over this half-edge, or anywhere where it is kNone.
+  struct Way {
+    Index block;
+    Index halfedge;
+  };
+
+  [[nodiscard]] bool ends_at(Index h) const { return barriers_[h] != 0 || mesh_.is_boundary(h); }
+  void gather(Index first, double size);
+  [[nodiscard]] Ball ball_around(std::span<const Index> faces, double rounding) const;
+  void find_ways();
+
+  const TriMesh& mesh_;
+  const std::vector<std::uint8_t>& barriers_;
+  std::vector<Index> block_of_;    ///< [F]
+  std::vector<Index> first_face_;  ///< [B + 1] into faces_
+  std::vector<Index> faces_;       ///< [F]
+  std::vector<Ball> balls_;        ///< [B]
+  std::vector<Index> first_way_;   ///< [B + 1] into ways_
+  std::vector<Way> ways_;
+};
+
+/// The p-cell walk ([MK04] section 3.2) over blocks: over the surface, never through space.
+class BlockWalk {
+ public:
+  /// \param blocks  kept by reference
+  explicit BlockWalk(const FaceBlocks& blocks) : blocks_(blocks), stamp_(blocks.count(), 0) {}
+
+  /// Blocks that can be reached from a face over blocks, and edges of large faces, which are not
+  /// farther than `distance` from a point of that face.
+  /// \return valid until the next walk
+  const std::vector<Index>& around(Index face, const Vec3& point, double distance);
+
+  /// Whether the last walk came to the block of a face.
+  [[nodiscard]] bool reached(Index face) const {
+    return stamp_[blocks_.block_of(face)] == current_;
+  }
+
+ private:
+  const FaceBlocks& blocks_;
+  std::vector<std::uint32_t> stamp_;  ///< [B] walk that came there last
+  std::uint32_t current_ = 0;
+  std::vector<Index> cell_;
+};
+
+}  // namespace strake
