@@ -127,9 +127,9 @@ const std::vector<Index>& BlockWalk::around(Index face, const Vec3& point, doubl
       const Vec3 centre(ball.centre[0], ball.centre[1], ball.centre[2]);
       const double reach = distance + ball.radius;
       if ((centre - point).squaredNorm() > reach * reach) continue;
-      if (h != kNone && (way_to_segment(point, mesh.positions[mesh.from(h)],
-                                        mesh.positions[mesh.to(h)])
-                             .squaredNorm() > distance * distance)) {
+      if (h != kNone &&
+          (way_to_segment(point, mesh.positions[mesh.from(h)], mesh.positions[mesh.to(h)])
+               .squaredNorm() > distance * distance)) {
         continue;
       }
       stamp_[other] = current_;

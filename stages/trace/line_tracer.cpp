@@ -88,10 +88,12 @@ bool LineTracer::fits(const LineHead& head, double fraction) {
   return !look_around(head, fraction, spacing_at(domain_, head)).conflict;
 }
 
+/// Discs that lie so far apart cover the strip of that width beside the line.
 void LineTracer::cover(const LineHead& head, const LocalSpacing& spacing) {
-  covered_.push_back({head.context.chart.face, world_point(domain_, head.context, head.point),
-                      world_direction(domain_, head.context, head.heading),
-                      settings_.cover_fraction * spacing.to_neighbours});
+  covered_.push_back(
+      {head.context.chart.face, world_point(domain_, head.context, head.point),
+       world_direction(domain_, head.context, head.heading),
+       std::hypot(settings_.cover_fraction, kCoverStep / 2) * spacing.to_neighbours});
 }
 
 /// Whether a line that is too close to another one may get out of these narrows again.
@@ -162,8 +164,7 @@ void LineTracer::trace_half(LineHead head, bool may_close, double stop_fraction,
   }
 }
 
-std::optional<LineTracer::Halves> LineTracer::trace_halves(const Seed& seed,
-                                                           double stop_fraction) {
+std::optional<LineTracer::Halves> LineTracer::trace_halves(const Seed& seed, double stop_fraction) {
   const LineHead head = start_head(domain_, seed, true);
   const double fraction = seed.fills_gap ? settings_.gap_fraction : settings_.seed_fraction;
   if (!fits(head, fraction)) return std::nullopt;

@@ -193,7 +193,8 @@ TEST_F(LinesOnAPlane, StayAsTheyAreWhereLinesFinishedSinceAreNoNews) {
     const LineDraft ahead = lines.try_out(seed);
     lines.trace(seed_at(uniform(random), uniform(random), i % 2 ? Vec3::UnitX() : Vec3::UnitY()));
     const LineDraft now = lines.try_out(seed);
-    const bool is_same = ahead.is_line == now.is_line &&  is_same_way(ahead.segments, now.segments) &&
+    const bool is_same = ahead.is_line == now.is_line &&
+                         is_same_way(ahead.segments, now.segments) &&
                          ahead.line.end_reason == now.line.end_reason;
     if (lines.proximity().has_news(ahead.asked, since)) {
       ++news;
