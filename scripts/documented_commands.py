@@ -30,6 +30,7 @@ ELSEWHERE = {
 CODE = {
     "docs/library.md cpp": ("tests/package/check_package.py", "docs/library.md"),
     "docs/python.md python": ("tests/python/module_test.py", "docs/python.md"),
+    "docs/artifacts-in-matlab.md matlab": ("tests/artifacts/artifacts_in_octave.py", "docs/artifacts-in-matlab.md"),
     "docs/artifacts-in-python.md python": ("tests/artifacts/artifacts_in_python.py", "docs/artifacts-in-python.md"),
 }
 

@@ -88,6 +88,9 @@ class App {
     this.numbers.hidden = !view.pick;
     if (view.pick) this.numbers.replaceChildren(...numbersPanel(view.pick, this.runs, () => this.set(() => (view.pick = null))));
     this.showLabels();
+    // Half a pane wants another distance, unless the user has chosen one.
+    if (this.fitted !== view.compare && !view.camera) this.stage.reset();
+    this.fitted = view.compare;
     this.noteAddress();
     this.stage.draw();
   }

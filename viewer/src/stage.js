@@ -40,9 +40,10 @@ export class Stage {
     this.controls.minDistance = 0.01;
     this.controls.maxDistance = 8;
     this.controls.addEventListener("change", () => {
+      this.draw();
+      if (this.isPlacing) return;
       this.view.camera = [...this.camera.position.toArray(), ...this.controls.target.toArray()];
       changed();
-      this.draw();
     });
     this.highlight = new THREE.Group();
     this.placeCamera();
@@ -55,7 +56,9 @@ export class Stage {
     const [x, y, z, tx, ty, tz] = this.view.camera ?? this.fitting();
     this.camera.position.set(x, y, z);
     this.controls.target.set(tx, ty, tz);
+    this.isPlacing = true;
     this.controls.update();
+    this.isPlacing = false;
   }
 
   /** Where the camera stands and looks at to show all of the first pane's run. */
@@ -85,7 +88,6 @@ export class Stage {
   reset() {
     this.view.camera = null;
     this.placeCamera();
-    this.view.camera = null;
     this.draw();
   }
 

@@ -139,6 +139,19 @@ async function checkSection(browser, report) {
   assert.ok(filled[0] > 500 && Math.abs(filled[0] / filled[1] - 1) < 0.1, `cuts of ${filled} pixels`);
 }
 
+/** Where the camera is. */
+const camera = (page) => page.evaluate(() => window.strakeReport.stage.camera.position.toArray());
+
+/** Two panes show all of the model, too, and one does again. */
+async function checkFit(page) {
+  const distances = [];
+  for (const key of ["", "s", "s"]) {
+    if (key) await page.keyboard.press(key);
+    distances.push(Math.hypot(...(await camera(page))));
+  }
+  assert.ok(distances[1] > 1.02 * distances[0] && distances[2] === distances[0], `distances ${distances}`);
+}
+
 async function checkLayers(page, report) {
   const first = await drawing(page);
   const guides = report.hasAttributes ? ["Guide lines"] : [];
@@ -207,7 +220,6 @@ async function checkFigures(page, report) {
 
 /** A link shows what the page it was taken from shows; numbers in it are rounded. */
 async function checkLink(browser, report) {
-  const camera = (page) => page.evaluate(() => window.strakeReport.stage.camera.position.toArray());
   const link = async (page) => {
     await page.waitForFunction(() => location.hash === window.strakeReport.link);
     return page.evaluate(() => location.hash);
@@ -260,6 +272,7 @@ try {
   });
   for (const report of reports) {
     const page = await open(browser, report, "");
+    await checkFit(page);
     await checkLayers(page, report);
     await checkFigures(page, report);
     await page.context().close();
