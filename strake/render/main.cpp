@@ -86,7 +86,7 @@ void add_run_arguments(CLI::App& app, Arguments& arguments) {
   group
       ->add_option("--colour", arguments.shown.colour,
                    "of the input: plain, k_min, k_max, confidence, colours; of the result: sides, "
-                   "distance, alignment, colours, plain")
+                   "distance, alignment, colours, labels, plain")
       ->capture_default_str();
   group
       ->add_option(

@@ -16,7 +16,7 @@ using Words = std::vector<std::string>;
 
 const std::map<std::string, Words> kColours = {
     {"input", {"plain", "k_min", "k_max", "confidence", "colours"}},
-    {"result", {"sides", "distance", "alignment", "colours", "plain"}}};
+    {"result", {"sides", "distance", "alignment", "colours", "labels", "plain"}}};
 const Words kLayers = {"edges", "triangles", "minimum",   "maximum", "boundary", "feature",
                        "ends",  "seeds",     "principal", "cross",   "guides"};
 

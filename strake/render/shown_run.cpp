@@ -9,6 +9,7 @@
 #include "common/geometry/cell_error/cell_error.h"
 #include "common/geometry/line_chord.h"
 #include "strake/report/result_edges.h"
+#include "strake/report/scene.h"
 
 namespace strake {
 namespace {
@@ -31,19 +32,24 @@ const Scale kAlignment = {{0xd3, 0xd8, 0xdf},
                           {0x7a, 0x10, 0x38}};
 const Scale kDistance = {{0xe6, 0xeb, 0xf0}, {0xb6, 0xd9, 0xc9}, {0x6c, 0xbf, 0xae},
                          {0x2d, 0x8f, 0xa6}, {0x30, 0x57, 0x8f}, {0x3b, 0x25, 0x66}};
+const Scale kLabels = {{0x3b, 0x7d, 0xdd}, {0xe0, 0x7a, 0x1f}, {0x2a, 0x9d, 0x63},
+                       {0xb0, 0x47, 0x9f}, {0x8d, 0x6e, 0x3f}, {0x5f, 0x6b, 0x7a},
+                       {0xc4, 0x3d, 0x4b}, {0x1f, 0x9b, 0xb0}};
 const Vec3 kPlain = Vec3(0xc9, 0xce, 0xd6) / 255;
 const Vec3 kUnjudged = Vec3(0x8f, 0x97, 0xa3) / 255;
 
 constexpr std::size_t kGlyphs = 3500;
 constexpr double kMarkWidth = 3;  // of marks, beside lines
 
+Vec3 stop_of(const Scale& scale, std::size_t k) {
+  return Vec3(scale[k][0], scale[k][1], scale[k][2]) / 255;
+}
+
 Vec3 on_scale(const Scale& scale, double share) {
   const double place = std::clamp(share, 0.0, 1.0) * static_cast<double>(scale.size() - 1);
   const auto i = std::min(static_cast<std::size_t>(place), scale.size() - 2);
-  const auto colour = [&](std::size_t k) -> Vec3 {
-    return Vec3(scale[k][0], scale[k][1], scale[k][2]) / 255;
-  };
-  return colour(i) + (place - static_cast<double>(i)) * (colour(i + 1) - colour(i));
+  const Vec3 low = stop_of(scale, i);
+  return low + (place - static_cast<double>(i)) * (stop_of(scale, i + 1) - low);
 }
 
 /// The size that a share of the values do not exceed.
@@ -81,6 +87,17 @@ std::vector<Vec3> own_colours(const PolyMesh& mesh, const std::string& name) {
   return colours;
 }
 
+/// A colour for each label; they repeat where there are many.
+std::vector<Vec3> by_label(const PolyMesh& mesh, const std::string& name) {
+  const FaceLabels* labels = report::telling_labels(mesh.attributes.labels);
+  if (labels == nullptr) throw UsageError("run '" + name + "' has no labels of its faces");
+  std::vector<Vec3> colours;
+  for (const Index label : labels->of_face) {
+    colours.push_back(stop_of(kLabels, static_cast<std::uint32_t>(label) % kLabels.size()));
+  }
+  return colours;
+}
+
 std::vector<Vec3> input_colours(const report::RunFiles& run, const PolyMesh& mesh,
                                 const std::string& colour) {
   if (colour == "plain") return std::vector<Vec3>(run.mesh.faces.size(), kPlain);
@@ -106,6 +123,7 @@ std::vector<Vec3> result_colours(const report::RunFiles& run, const std::string&
   if (colour == "sides") return {};
   if (colour == "plain") return std::vector<Vec3>(mesh.face_count(), kPlain);
   if (colour == "colours") return own_colours(mesh, run.name);
+  if (colour == "labels") return by_label(mesh, run.name);
   std::vector<Vec3> colours;
   if (colour == "alignment") {
     for (const double angle :

@@ -32,9 +32,9 @@ bool is_closed(const PolyEdges& edges) {
   return true;
 }
 
-/// Labels of faces by the kind that tells most parts apart; nothing where there are none.
-void add_labels(const std::vector<FaceLabels>& kinds, Blocks& blocks,
-                nlohmann::ordered_json& scene) {
+}  // namespace
+
+const FaceLabels* telling_labels(const std::vector<FaceLabels>& kinds) {
   const FaceLabels* best = nullptr;
   std::size_t most = 0;
   for (const FaceLabels& kind : kinds) {
@@ -43,12 +43,8 @@ void add_labels(const std::vector<FaceLabels>& kinds, Blocks& blocks,
     best = &kind;
     most = parts;
   }
-  if (best == nullptr) return;
-  scene["labels"] = {
-      {"kind", best->name}, {"names", best->names}, {"of_face", blocks.vertices(best->of_face)}};
+  return best;
 }
-
-}  // namespace
 
 nlohmann::ordered_json result_scene(const VertexProvenance& provenance, const ResultEdges& result,
                                     const ErrorMap& errors, Blocks& blocks) {
@@ -98,7 +94,11 @@ nlohmann::ordered_json result_scene(const VertexProvenance& provenance, const Re
   if (!mesh.attributes.colour.empty()) {
     scene["colours"] = blocks.vertices(quantise_colours(mesh.attributes.colour));
   }
-  add_labels(mesh.attributes.labels, blocks, scene);
+  if (const FaceLabels* labels = telling_labels(mesh.attributes.labels)) {
+    scene["labels"] = {{"kind", labels->name},
+                       {"names", labels->names},
+                       {"of_face", blocks.vertices(labels->of_face)}};
+  }
   return scene;
 }
 

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "common/core/attributes.h"
 #include "common/core/fields.h"
 #include "common/core/line_set.h"
 #include "common/core/poly_mesh.h"
@@ -28,6 +29,9 @@ nlohmann::ordered_json surface_scene(const TriMesh& mesh, const PrincipalField* 
 /// \param errors  of `quads` against the input
 nlohmann::ordered_json result_scene(const VertexProvenance& provenance, const ResultEdges& result,
                                     const ErrorMap& errors, Blocks& blocks);
+
+/// The labels of faces that tell most parts apart; nullptr where there are none.
+const FaceLabels* telling_labels(const std::vector<FaceLabels>& kinds);
 
 inline constexpr double kLineDeviation = 5e-5;
 inline constexpr std::size_t kMostLinePoints = 100000;

@@ -41,12 +41,26 @@ TEST_F(RenderRun, DrawsEachLayerOfARunAndAgreesWithTheAddressOfAView) {
 
   for (const std::string wrong :
        {"--colour k_max", "--surface moon", "--layers edges+moon", "--section w,1",
-        "--view '#camera=1,2'", "--surface input --colour colours"}) {
+        "--view '#camera=1,2'", "--surface input --colour colours", "--colour labels"}) {
     EXPECT_EQ(run("strake-render run -o wrong.png " + wrong).exit_code, 2) << wrong;
   }
   std::filesystem::create_directory(file("empty"));
   must_fail(3, "strake-render empty -o wrong.png", "no artifact of kind 'quads'");
   EXPECT_FALSE(std::filesystem::exists(file("wrong.png")));
+}
+
+TEST_F(RenderRun, LabelsHaveColours) {
+  // Two squares side by side, of four triangles each.
+  put("squares.obj",
+      "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\nv 0.5 0.5 0\nv 1.5 0.5 0\n"
+      "g left\nf 1 2 7\nf 2 5 7\nf 5 4 7\nf 4 1 7\n"
+      "g right\nf 2 3 8\nf 3 6 8\nf 6 5 8\nf 5 2 8\n");
+  must("strake remesh squares.obj -q -o quads.obj --attribute-features labels --keep run");
+  const auto picture = [&](const std::string& colour) {
+    must("strake-render run -o run.png --size 120x90 --samples 1 --colour " + colour);
+    return bytes("run.png");
+  };
+  EXPECT_NE(picture("labels"), picture("plain"));
 }
 
 }  // namespace
