@@ -17,6 +17,9 @@ if(STRAKE_SANITIZE)
   add_compile_options($<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   add_link_options(-fsanitize=${STRAKE_SANITIZE})
 endif()
+if(STRAKE_SANITIZE MATCHES "thread")
+  include_directories(BEFORE ${PROJECT_SOURCE_DIR}/tests/tsan) # loops that the sanitizer understands
+endif()
 
 # What makes an overrun end the program instead of being of use to someone.
 include(CheckPIESupported)

@@ -54,6 +54,7 @@ ON_SMALL_MODELS = {
 
 # Run by a person: why no test does.
 BY_HAND = {
+    "scripts/sanitize": "builds the programs anew, twice, and takes an hour",
     "scripts/mutate": "builds a part of everything anew for each fault, for half an hour; a test looks whether the faults fit",
     "paraview --state=pictures/run.pvsm": "opens a window; a test makes the state",
     "tests/paraview/make_root paraview-root": "fetches 2 GB; before each release",

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Remeshes the collection of test models and judges every result with an independent meter.
 
-    check_corpus.py SUITE --strake PROGRAM [--models FOLDER] [--meter PROGRAM] [--count N] [NAME...]
+    check_corpus.py SUITE --strake PROGRAM [--models FOLDER] [--meter PROGRAM] [--count N]
+                    [--slower FACTOR] [--most-bytes N] [NAME...]
 
 Suites:
   default  every manifold model of scan, cad, genus and open, with strake's defaults: the same
@@ -119,8 +120,9 @@ def concave_percent(candidate):
 
 
 class Checker:
-    def __init__(self, suite, strake, meter, scratch):
+    def __init__(self, suite, strake, meter, scratch, slower=1):
         self.suite = suite
+        self.time_limit = slower * TIME_LIMIT[suite]
         self.strake = strake
         self.meter = meter
         self.scratch = scratch
@@ -139,7 +141,7 @@ class Checker:
             if output.exists():
                 case.faults.append("refused, but wrote a result")
         elif case.exit in KILLED:
-            case.faults.append(f"longer than {TIME_LIMIT[self.suite]} s of processor time")
+            case.faults.append(f"longer than {self.time_limit} s of processor time")
         elif case.exit is not None:
             case.faults.append(f"exit {case.exit}: {case.message[-300:]}")
         return case
@@ -151,7 +153,7 @@ class Checker:
             command += ["--vertices", str(case.wanted)]
         if self.suite == "tolerance":
             command += ["--tolerance", f"{100 * TOLERANCE}%"]
-        limit = TIME_LIMIT[self.suite]
+        limit = self.time_limit
         limited = ["timeout", "-s", "KILL", str(CLOCK_FACTOR * limit),
                    "sh", "-c", 'ulimit -t "$0" && exec "$@"', str(limit), *command]
         started = time.monotonic()
@@ -269,6 +271,9 @@ def parse_arguments():
     parser.add_argument("--first", type=int, default=0, help="seed of the first of them")
     parser.add_argument("--table", type=pathlib.Path, help="document to put the results into")
     parser.add_argument("--keep", type=pathlib.Path, help="folder for generated meshes that failed")
+    parser.add_argument("--slower", type=int, default=1,
+                        help="factor on time limits, for programs built with sanitizers")
+    parser.add_argument("--most-bytes", type=int, help="only models of files up to that size")
     parser.add_argument("--meter", default=os.environ.get("STRAKE_METER"),
                         help="default: $STRAKE_METER, else what scripts/build_meter builds")
     return parser.parse_args()
@@ -296,10 +301,12 @@ def main():
             cases = cases_of(arguments.suite, folder)
         if arguments.names:
             cases = [case for case in cases if any(name in case.name for name in arguments.names)]
+        if arguments.most_bytes:
+            cases = [case for case in cases if case.path.stat().st_size <= arguments.most_bytes]
         if not cases:
             print("check_corpus: error: no model of that name", file=sys.stderr)
             return 2
-        code = check_all(cases, Checker(arguments.suite, arguments.strake, meter, scratch),
+        code = check_all(cases, Checker(arguments.suite, arguments.strake, meter, scratch, arguments.slower),
                          arguments.keep)
         if arguments.table:
             text = arguments.table.read_text(encoding="utf-8")
