@@ -1,5 +1,6 @@
 #include "common/geometry/cell_error/cell_error.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <Eigen/Dense>
@@ -108,9 +109,12 @@ Sums measure_face(const ComparedSurfaces& surfaces, Index f, Mat3& bend) {
   const std::vector<Vec3>& positions = surfaces.positions();
   const std::span<const Index> face = surfaces.faces().face(f);
   Vec3 centre = Vec3::Zero();
+  Index guess = kNone;
   for (const Index v : face) {
     centre += positions[v] / static_cast<double>(face.size());
-    sums.add(surfaces.input().closest(positions[v]).distance, 0);
+    const ClosestPoint foot = surfaces.input().closest_near(positions[v], guess);
+    guess = foot.triangle;
+    sums.add(foot.distance, 0);
   }
   const Vec3 normal = newell_normal(positions, face);
   const bool has_plane = normal.norm() > 0;
@@ -120,7 +124,8 @@ Sums measure_face(const ComparedSurfaces& surfaces, Index f, Mat3& bend) {
     const double weight = area(positions, corners) / place_count(kRows);
     for_each_place(kRows, [&](const Barycentric& at) {
       const Vec3 p = place(positions, corners, at);
-      const ClosestPoint foot = surfaces.input().closest(p);
+      const ClosestPoint foot = surfaces.input().closest_near(p, guess);
+      guess = foot.triangle;
       sums.add(foot.distance, weight);
       const double side =
           (p - surfaces.input().point(foot)).dot(surfaces.input_normals()[foot.triangle]);
@@ -131,41 +136,64 @@ Sums measure_face(const ComparedSurfaces& surfaces, Index f, Mat3& bend) {
   return sums;
 }
 
-/// Measures from the input to the faces of the result nearest to its samples.
+/// Measures from the input to the faces of the result nearest to its samples: its vertices, and a
+/// grid of places in faces that are larger than the distance of samples.
 std::vector<Sums> measure_input(const ComparedSurfaces& surfaces, std::vector<Index>& vertex_cell) {
   struct Hit {
-    Index cell;
-    double distance;
+    Index triangle = kNone;
+    double distance = 0;
   };
   const TriMesh& mesh = surfaces.mesh();
-  const auto look = [&](const Vec3& p) {
-    const ClosestPoint foot = surfaces.result().closest(p);
-    return Hit{surfaces.triangles().face[foot.triangle], foot.distance};
+  const auto look = [&](const Vec3& p, Index guess) {
+    const ClosestPoint foot = surfaces.result().closest_near(p, guess);
+    return Hit{foot.triangle, foot.distance};
   };
+  std::vector<double> areas(mesh.faces.size());
   double total = 0;
-  for (const auto& face : mesh.faces) total += area(mesh.positions, face);
+  for (std::size_t f = 0; f < areas.size(); ++f) {
+    areas[f] = area(mesh.positions, mesh.faces[f]);
+    total += areas[f];
+  }
   const auto cells = static_cast<std::size_t>(surfaces.faces().face_count());
   const double step = kInputStep * std::sqrt(total / static_cast<double>(cells));
-  std::vector<std::vector<Hit>> hits(mesh.faces.size());
-  tbb::parallel_for(std::size_t{0}, hits.size(), [&](std::size_t f) {
-    const double rows = std::ceil(std::sqrt(2 * area(mesh.positions, mesh.faces[f])) / step);
-    for_each_place(static_cast<int>(std::clamp(rows, 1.0, double(kMostInputRows))),
-                   [&](const Barycentric& at) {
-                     hits[f].push_back(look(place(mesh.positions, mesh.faces[f], at)));
-                   });
-  });
+  const auto rows_of = [&](std::size_t f) {
+    const double rows = std::ceil(std::sqrt(2 * areas[f]) / step);
+    return static_cast<int>(std::clamp(rows, 1.0, double(kMostInputRows)));
+  };
+
   std::vector<Hit> at_vertex(mesh.positions.size());
-  tbb::parallel_for(std::size_t{0}, at_vertex.size(),
-                    [&](std::size_t v) { at_vertex[v] = look(mesh.positions[v]); });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, at_vertex.size()), [&](const auto& range) {
+    Index guess = kNone;
+    for (std::size_t v = range.begin(); v < range.end(); ++v) {
+      at_vertex[v] = look(mesh.positions[v], guess);
+      guess = at_vertex[v].triangle;
+    }
+  });
+  std::vector<std::vector<Hit>> inside(mesh.faces.size());
+  tbb::parallel_for(std::size_t{0}, inside.size(), [&](std::size_t f) {
+    const int rows = rows_of(f);
+    if (rows == 1) return;
+    Index guess = at_vertex[mesh.faces[f][0]].triangle;
+    for_each_place(rows, [&](const Barycentric& at) {
+      inside[f].push_back(look(place(mesh.positions, mesh.faces[f], at), guess));
+      guess = inside[f].back().triangle;
+    });
+  });
+
+  const std::vector<Index>& cell_of = surfaces.triangles().face;
   std::vector<Sums> sums(cells);
-  for (std::size_t f = 0; f < hits.size(); ++f) {
-    const double weight = area(mesh.positions, mesh.faces[f]) / static_cast<double>(hits[f].size());
-    for (const Hit& hit : hits[f]) sums[hit.cell].add(hit.distance, weight);
+  std::vector<double> weights(mesh.positions.size(), 0);  // of small faces
+  for (std::size_t f = 0; f < inside.size(); ++f) {
+    const double share = areas[f] / static_cast<double>(inside[f].empty() ? 3 : inside[f].size());
+    for (const Hit& hit : inside[f]) sums[cell_of[hit.triangle]].add(hit.distance, share);
+    if (!inside[f].empty()) continue;
+    for (const Index v : mesh.faces[f]) weights[v] += share;
   }
   vertex_cell.clear();
-  for (const Hit& hit : at_vertex) {
-    sums[hit.cell].add(hit.distance, 0);
-    vertex_cell.push_back(hit.cell);
+  for (std::size_t v = 0; v < at_vertex.size(); ++v) {
+    const Index cell = cell_of[at_vertex[v].triangle];
+    sums[cell].add(at_vertex[v].distance, weights[v]);
+    vertex_cell.push_back(cell);
   }
   return sums;
 }
