@@ -2,9 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
+
+#include "stages/trace/face_rows.h"
 
 namespace strake {
 namespace {
@@ -19,31 +20,6 @@ constexpr std::uint8_t kBothArms = 3;  ///< the bits of arm_bit
 std::uint8_t arm_bit(const Vec3& arm, const Vec3& flat) {
   const double c = arm.dot(flat);
   return c * c >= 0.5 * flat.squaredNorm() ? 1 : 2;
-}
-
-/// How the samples of a face lie: in rows parallel to its longest edge, in order along it.
-struct Rows {
-  int base = 0;  ///< corner where the longest edge starts
-  double longest = 0;
-  Vec3 origin;  ///< the position of that corner
-  Vec3 along;   ///< unit, of the edge
-
-  [[nodiscard]] double place(const Vec3& p) const { return along.dot(p - origin); }
-};
-
-Rows rows_of(const TriMesh& mesh, Index face) {
-  Rows rows;
-  std::array<Vec3, 3> p;
-  for (int i = 0; i < 3; ++i) p[i] = mesh.positions[mesh.faces[face][i]];
-  for (int i = 0; i < 3; ++i) {
-    const double length = (p[(i + 1) % 3] - p[i]).norm();
-    if (length <= rows.longest) continue;
-    rows.longest = length;
-    rows.base = i;
-  }
-  rows.origin = p[rows.base];
-  rows.along = (p[(rows.base + 1) % 3] - rows.origin) / rows.longest;
-  return rows;
 }
 
 }  // namespace
@@ -74,7 +50,7 @@ Coverage::Coverage(const TraceDomain& domain, const FaceBlocks& blocks)
 /// Rows of samples parallel to the longest edge, each a line distance from the next.
 void Coverage::sample_face(Index face) {
   const TriMesh& mesh = domain_.mesh;
-  const Rows rows = rows_of(mesh, face);
+  const FaceRows rows = face_rows(mesh, face);
   double least = std::numeric_limits<double>::infinity();
   for (const Index w : mesh.face_wedges[face]) {
     least = std::min({least, domain_.spacing.along[w], domain_.spacing.across[w]});
@@ -144,7 +120,7 @@ void Coverage::mark_corners(Index block, const CoveredDisc& disc) {
 
 void Coverage::mark_points(Index face, const CoveredDisc& disc) {
   if (offsets_[face] == offsets_[face + 1]) return;
-  const Rows rows = rows_of(domain_.mesh, face);
+  const FaceRows rows = face_rows(domain_.mesh, face);
   const double middle = rows.place(disc.point);
   const auto first = points_.begin() + offsets_[face];
   const auto last = points_.begin() + offsets_[face + 1];

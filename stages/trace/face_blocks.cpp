@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/geometry/segment.h"
+#include "stages/trace/face_rows.h"
 
 namespace strake {
 namespace {
@@ -34,6 +35,11 @@ double least_spacing(const TriMesh& mesh, const Spacing& spacing, Index face) {
   return least;
 }
 
+/// Slabs of a face hold so many line distances, and are not more than that.
+constexpr double kLinesPerSlab = 4;
+constexpr double kMostSlabs = 1024;
+constexpr double kPlaceRounding = 1e-9;
+
 }  // namespace
 
 FaceBlocks::FaceBlocks(const TriMesh& mesh, const Spacing& spacing,
@@ -48,6 +54,34 @@ FaceBlocks::FaceBlocks(const TriMesh& mesh, const Spacing& spacing,
     balls_.push_back(ball_around(faces(count()), rounding));
   }
   find_ways();
+  cut(spacing);
+}
+
+void FaceBlocks::cut(const Spacing& spacing) {
+  first_slab_.push_back(0);
+  for (Index block = 0; block < count(); ++block) {
+    Index slabs = 1;
+    if (is_single(block)) {
+      const Index face = faces(block).front();
+      const double lines = face_rows(mesh_, face).longest / least_spacing(mesh_, spacing, face);
+      slabs = static_cast<Index>(std::clamp(lines / kLinesPerSlab, 1.0, kMostSlabs));
+    }
+    first_slab_.push_back(first_slab_.back() + slabs);
+  }
+}
+
+std::pair<Index, Index> FaceBlocks::slabs(Index block, const Vec3& a, const Vec3& b,
+                                          double distance) const {
+  const Index first = first_slab_[block];
+  const Index count = first_slab_[block + 1] - first;
+  if (count == 1) return {first, first + 1};
+  const FaceRows rows = face_rows(mesh_, faces(block).front());
+  const auto slab_at = [&](double place) {
+    return first + static_cast<Index>(std::clamp(count * place / rows.longest, 0.0, count - 1.0));
+  };
+  const auto [low, high] = std::minmax({rows.place(a), rows.place(b)});
+  const double margin = (1 + kPlaceRounding) * distance + kPlaceRounding * rows.longest;
+  return {slab_at(low - margin), slab_at(high + margin) + 1};
 }
 
 /// Appends the next block: what is connected to a face, free yet, and near to its middle.

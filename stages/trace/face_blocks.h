@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "common/core/tri_mesh.h"
@@ -13,7 +14,8 @@ namespace strake {
 /// The faces of a mesh in connected blocks that are small against the wanted distances of lines, so
 /// that a look around takes a few steps however fine the mesh is.
 ///
-/// A face as large as a block is one of its own. No block reaches across a barrier.
+/// A face as large as a block is one of its own, cut into slabs across its longest edge where it is
+/// much longer than lines are apart. No block reaches across a barrier.
 class FaceBlocks {
  public:
   /// \param barriers [3F] half-edges that walks and blocks end at, as at the boundary; kept by
@@ -28,6 +30,13 @@ class FaceBlocks {
   }
   [[nodiscard]] bool is_single(Index block) const { return faces(block).size() == 1; }
   [[nodiscard]] const TriMesh& mesh() const { return mesh_; }
+
+  /// Slabs of all blocks; most have one.
+  [[nodiscard]] Index slab_count() const { return first_slab_.back(); }
+  /// The slabs of a block that hold what is not farther than `distance` from segment a-b in it:
+  /// from the first number on, up to the second one.
+  [[nodiscard]] std::pair<Index, Index> slabs(Index block, const Vec3& a, const Vec3& b,
+                                              double distance) const;
 
  private:
   friend class BlockWalk;
@@ -47,6 +56,7 @@ class FaceBlocks {
   void gather(Index first, double size);
   [[nodiscard]] Ball ball_around(std::span<const Index> faces, double rounding) const;
   void find_ways();
+  void cut(const Spacing& spacing);
 
   const TriMesh& mesh_;
   const std::vector<std::uint8_t>& barriers_;
@@ -54,6 +64,7 @@ class FaceBlocks {
   std::vector<Index> first_face_;  ///< [B + 1] into faces_
   std::vector<Index> faces_;       ///< [F]
   std::vector<Ball> balls_;        ///< [B]
+  std::vector<Index> first_slab_;  ///< [B + 1]
   std::vector<Index> first_way_;   ///< [B + 1] into ways_
   std::vector<Way> ways_;
 };

@@ -14,8 +14,27 @@ double squared_distance(const Vec3& p, const Vec3& a, const Vec3& b) {
 
 }  // namespace
 
+void SegmentLists::push(const LineSegment& segment) {
+  const auto number = static_cast<Index>(segments_.size());
+  segments_.push_back(segment);
+  const auto [first, last] = blocks_.slabs(blocks_.block_of(segment.face), segment.a, segment.b, 0);
+  for (Index slab = first; slab < last; ++slab) {
+    nodes_.push_back({number, slab, head_[slab]});
+    head_[slab] = static_cast<Index>(nodes_.size()) - 1;
+  }
+}
+
+void SegmentLists::shrink(std::size_t count) {
+  for (; segments_.size() > count; segments_.pop_back()) {
+    const auto number = static_cast<Index>(segments_.size()) - 1;
+    for (; !nodes_.empty() && nodes_.back().segment == number; nodes_.pop_back()) {
+      head_[nodes_.back().slab] = nodes_.back().next;
+    }
+  }
+}
+
 ProximityIndex::ProximityIndex(const FaceBlocks& blocks, const std::vector<std::uint8_t>& barriers)
-    : blocks_(blocks), head_(blocks.count(), kNone) {
+    : blocks_(blocks), segments_(blocks) {
   first_barrier_.reserve(static_cast<std::size_t>(blocks.count()) + 1);
   first_barrier_.push_back(0);
   for (Index block = 0; block < blocks.count(); ++block) {
@@ -30,11 +49,8 @@ ProximityIndex::ProximityIndex(const FaceBlocks& blocks, const std::vector<std::
 
 void ProximityIndex::insert(std::span<const LineSegment> segments, Index line) {
   for (LineSegment segment : segments) {
-    Index& head = head_[blocks_.block_of(segment.face)];
     segment.line = line;
-    segment.next = head;
-    head = segment_count();
-    segments_.push_back(segment);
+    segments_.push(segment);
   }
 }
 
@@ -47,10 +63,12 @@ bool ProximityIndex::has_news(const Questions& asked, Index since) const {
         q + 1 < asked.queries.size() ? asked.first_block[q + 1] : asked.blocks.size();
     for (std::size_t at = asked.first_block[q]; at < end; ++at) {
       bool found = false;
-      for_segments(asked.blocks[at], since, [&](const LineSegment& segment) {
-        found = found || (query.is_alike(segment) &&
-                          squared_distance(query.point, segment.a, segment.b) < limit);
-      });
+      segments_.for_near(asked.blocks[at], query.point, query.distance, since,
+                         [&](const LineSegment& segment, Index) {
+                           found = found ||
+                                   (query.is_alike(segment) &&
+                                    squared_distance(query.point, segment.a, segment.b) < limit);
+                         });
       if (found) return true;
     }
   }
@@ -58,10 +76,7 @@ bool ProximityIndex::has_news(const Questions& asked, Index since) const {
 }
 
 ProximityProbe::ProximityProbe(const ProximityIndex& index, bool remembers)
-    : index_(index),
-      walk_(index.blocks()),
-      head_(index.blocks().count(), kNone),
-      remembers_(remembers) {}
+    : index_(index), walk_(index.blocks()), segments_(index.blocks()), remembers_(remembers) {}
 
 void ProximityProbe::clear() {
   shrink(0);
@@ -86,19 +101,13 @@ bool ProximityProbe::can_reach(Index face, const Vec3& point, double distance, I
 }
 
 void ProximityProbe::record(const LineSegment& segment, double arc) {
-  Index& head = head_[index_.blocks().block_of(segment.face)];
-  segments_.push_back(segment);
-  segments_.back().next = head;
+  segments_.push(segment);
   arcs_.push_back(arc);
-  head = static_cast<Index>(segments_.size()) - 1;
 }
 
 void ProximityProbe::shrink(std::size_t count) {
-  while (segments_.size() > count) {
-    head_[index_.blocks().block_of(segments_.back().face)] = segments_.back().next;
-    segments_.pop_back();
-    arcs_.pop_back();
-  }
+  segments_.shrink(count);
+  arcs_.resize(segments_.all().size());
 }
 
 ProximityHit ProximityProbe::query(const ProximityQuery& query) {
@@ -112,12 +121,14 @@ ProximityHit ProximityProbe::query(const ProximityQuery& query) {
     hit.line = line;
   };
   for (const Index block : look(query)) {
-    for (Index s = head_[block]; s != kNone; s = segments_[s].next) {
-      const LineSegment& own = segments_[s];
+    const auto for_near = [&](const SegmentLists& segments, const auto& use) {
+      segments.for_near(block, query.point, query.distance, 0, use);
+    };
+    for_near(segments_, [&](const LineSegment& own, Index s) {
       const double way = std::abs(arcs_[s] - query.own_arc) - 0.5 * (own.b - own.a).norm();
       if (way >= query.own_skip && query.is_alike(own)) consider(own.a, own.b, kOwnLine);
-    }
-    index_.for_segments(block, 0, [&](const LineSegment& segment) {
+    });
+    for_near(index_.segments(), [&](const LineSegment& segment, Index) {
       if (query.is_alike(segment)) consider(segment.a, segment.b, segment.line);
     });
     if (query.ignore_barriers) continue;
@@ -138,9 +149,12 @@ std::pair<double, double> ProximityProbe::distances_beside(const ProximityQuery&
     side = std::min(side, way.norm());
   };
   for (const Index block : look(query)) {
-    index_.for_segments(block, 0, [&](const LineSegment& segment) {
-      if (query.is_alike(segment.direction)) consider(segment.a, segment.b);
-    });
+    index_.segments().for_near(block, query.point, query.distance, 0,
+                               [&](const LineSegment& segment, Index) {
+                                 if (query.is_alike(segment.direction)) {
+                                   consider(segment.a, segment.b);
+                                 }
+                               });
     index_.for_barriers(block, [&](const Vec3& a, const Vec3& b) {
       if (query.is_alike((b - a).normalized())) consider(a, b);
     });

@@ -23,7 +23,44 @@ struct LineSegment {
   Index face = kNone;
   Index line = kOwnLine;
   LineFamily family = LineFamily::minimum;
-  Index next = kNone;  ///< in the list of the same block
+};
+
+/// Pieces of lines in lists by slab, latest first.
+class SegmentLists {
+ public:
+  /// \param blocks  kept by reference
+  explicit SegmentLists(const FaceBlocks& blocks)
+      : blocks_(blocks), head_(blocks.slab_count(), kNone) {}
+
+  void push(const LineSegment& segment);
+  /// Takes back the pieces pushed last, down to `count` of them.
+  void shrink(std::size_t count);
+  [[nodiscard]] const std::vector<LineSegment>& all() const { return segments_; }
+
+  /// Calls use(segment, number) for the pieces in a block that may be nearer to a point than
+  /// `distance`, from number `since` on; for some more than once.
+  template <class Use>
+  void for_near(Index block, const Vec3& point, double distance, Index since,
+                const Use& use) const {
+    const auto [first, last] = blocks_.slabs(block, point, point, distance);
+    for (Index slab = first; slab < last; ++slab) {
+      for (Index n = head_[slab]; n != kNone && nodes_[n].segment >= since; n = nodes_[n].next) {
+        use(segments_[nodes_[n].segment], nodes_[n].segment);
+      }
+    }
+  }
+
+ private:
+  struct Node {
+    Index segment;
+    Index slab;
+    Index next;
+  };
+
+  const FaceBlocks& blocks_;
+  std::vector<LineSegment> segments_;
+  std::vector<Node> nodes_;  ///< one for each slab that a piece is in
+  std::vector<Index> head_;  ///< [slabs] latest node
 };
 
 /// What a query asks for: is a line of the same direction closer than `distance`?
@@ -74,14 +111,10 @@ class ProximityIndex {
   /// Whether segments from number `since` on may change the answer to one of these questions.
   [[nodiscard]] bool has_news(const Questions& asked, Index since) const;
 
-  [[nodiscard]] Index segment_count() const { return static_cast<Index>(segments_.size()); }
+  [[nodiscard]] Index segment_count() const { return static_cast<Index>(segments_.all().size()); }
+  [[nodiscard]] const SegmentLists& segments() const { return segments_; }
   [[nodiscard]] const FaceBlocks& blocks() const { return blocks_; }
 
-  /// Calls use(segment) for the segments in a block from number `since` on, latest first.
-  template <class Use>
-  void for_segments(Index block, Index since, const Use& use) const {
-    for (Index s = head_[block]; s >= since && s != kNone; s = segments_[s].next) use(segments_[s]);
-  }
   /// Calls use(a, b) with the ends of the barrier edges around a block.
   template <class Use>
   void for_barriers(Index block, const Use& use) const {
@@ -95,8 +128,7 @@ class ProximityIndex {
   const FaceBlocks& blocks_;
   std::vector<Index> first_barrier_;  ///< [B + 1] into barriers_
   std::vector<Index> barriers_;       ///< half-edges
-  std::vector<LineSegment> segments_;
-  std::vector<Index> head_;  ///< [B] latest segment
+  SegmentLists segments_;
 };
 
 /// What one line sees around it: finished lines, barriers, and what it has recorded itself.
@@ -116,7 +148,7 @@ class ProximityProbe {
   void record(const LineSegment& segment, double arc);
   /// Takes back the pieces recorded last, down to `count` of them.
   void shrink(std::size_t count);
-  [[nodiscard]] const std::vector<LineSegment>& recorded() const { return segments_; }
+  [[nodiscard]] const std::vector<LineSegment>& recorded() const { return segments_.all(); }
   [[nodiscard]] const Questions& asked() const { return asked_; }
 
   ProximityHit query(const ProximityQuery& query);
@@ -136,9 +168,8 @@ class ProximityProbe {
 
   const ProximityIndex& index_;
   BlockWalk walk_;
-  std::vector<LineSegment> segments_;
-  std::vector<double> arcs_;
-  std::vector<Index> head_;  ///< [B] latest own segment
+  SegmentLists segments_;     ///< of the own line
+  std::vector<double> arcs_;  ///< of each
   bool remembers_;
   Questions asked_;
   std::int64_t query_count_ = 0;
