@@ -22,6 +22,7 @@ ELSEWHERE = {
     "cmake --install build --prefix PREFIX": ("tests/package/check_package.py", 'run("cmake", "--install", build'),
     "cmake --build build --target strake strake-render strake-bench-decimate": ("scripts/test", "--target strake-bench-decimate"),
     "cmake --build build --target strake-bench-decimate": ("scripts/test", "--target strake-bench-decimate"),
+    "cmake --build build --target strake-bench-kernels": ("scripts/test", "strake-bench-kernels"),
     "scripts/fuzz 60": ("tests/fuzz/CMakeLists.txt", "scripts/fuzz --built"),
     "cpack -G DEB": ("tests/package/check_debian.py", 'run("cpack", "-G", "DEB"'),
 }

@@ -118,8 +118,8 @@ void evaluate_field(benchmark::State& state, const Data* data) {
   const std::vector<LineHead> heads = heads_along(*data);
   measure(state, heads.size(), [&](std::size_t i) {
     const FieldContext context = field_context(data->domain, heads[i].context.chart.face);
-    benchmark::DoNotOptimize(field_direction(data->domain, context, heads[i].point,
-                                             heads[i].heading, heads[i].family));
+    benchmark::DoNotOptimize(
+        field_direction(data->domain, context, heads[i].point, heads[i].heading, heads[i].family));
   });
 }
 
