@@ -181,21 +181,27 @@ TEST_F(LinesOnAPlane, StayAsTheyAreWhereLinesFinishedSinceAreNoNews) {
   field_ = field_along(mesh_, [](const Vec3& p) {
     return Vec3(std::cos(2 * p.x() + p.y()), std::sin(2 * p.x() + p.y()), 0);
   });
-  Lines lines(domain_, barriers_);
   std::mt19937_64 random(1);
-  std::uniform_real_distribution<double> uniform(-0.9, 0.9);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
   int news = 0;
   int stays = 0;
   int differs = 0;
-  for (int i = 0; i < 300; ++i) {
-    const Seed seed = seed_at(uniform(random), uniform(random), Vec3::UnitX());
+  for (int i = 0; i < 200; ++i) {
+    Lines lines(domain_, barriers_);
+    for (int k = 0; k < i % 4; ++k) {
+      lines.trace(seed_at(uniform(-0.9, 0.9), uniform(-0.9, 0.9), Vec3::UnitX()));
+    }
+    const double x = uniform(-0.6, 0.6);
+    const double y = uniform(-0.6, 0.6);
+    const Seed seed = seed_at(x, y, Vec3::UnitX());
     const Index since = lines.proximity().segment_count();
     const LineDraft ahead = lines.try_out(seed);
-    lines.trace(seed_at(uniform(random), uniform(random), i % 2 ? Vec3::UnitX() : Vec3::UnitY()));
+    lines.trace(seed_at(x + uniform(-0.3, 0.3), y + uniform(-0.3, 0.3),
+                        i % 2 == 0 ? Vec3::UnitX() : Vec3::UnitY()));
     const LineDraft now = lines.try_out(seed);
-    const bool is_same = ahead.is_line == now.is_line &&
-                         is_same_way(ahead.segments, now.segments) &&
-                         ahead.line.end_reason == now.line.end_reason;
+    const bool is_same = ahead.is_line == now.is_line && is_same_way(ahead.segments, now.segments);
     if (lines.proximity().has_news(ahead.asked, since)) {
       ++news;
       differs += is_same ? 0 : 1;
@@ -204,8 +210,8 @@ TEST_F(LinesOnAPlane, StayAsTheyAreWhereLinesFinishedSinceAreNoNews) {
       if (ahead.is_line && lines.proximity().segment_count() > since) ++stays;
     }
   }
-  EXPECT_GT(stays, 3);
-  EXPECT_GT(differs, 3);
+  EXPECT_GT(stays, 20);
+  EXPECT_GT(differs, 20);
   EXPECT_LE(differs, news);
 }
 
