@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -97,7 +98,9 @@ void Coverage::sample_face(Index face) {
 
 void Coverage::mark(const CoveredDisc& disc, BlockWalk& walk) {
   for (const Index block : walk.around(disc.face, disc.point, disc.distance)) {
-    if (open_corners_[block] > 0) mark_corners(block, disc);
+    if (std::atomic_ref(open_corners_[block]).load(std::memory_order_relaxed) > 0) {
+      mark_corners(block, disc);
+    }
     // Only faces as large as a block have points of their own.
     if (blocks_.is_single(block)) mark_points(blocks_.faces(block).front(), disc);
   }
@@ -108,13 +111,17 @@ void Coverage::mark_corners(Index block, const CoveredDisc& disc) {
   const double limit = disc.distance * disc.distance;
   for (Index at = first_corner_[block]; at < first_corner_[block + 1]; ++at) {
     const Index w = mesh.wedge_of(corners_[at]);
-    std::uint8_t& marks = wedge_marks_[w];
-    if (marks == kBothArms) continue;
+    const std::atomic_ref marks(wedge_marks_[w]);
+    if (marks.load(std::memory_order_relaxed) == kBothArms) continue;
     if ((mesh.positions[mesh.from(corners_[at])] - disc.point).squaredNorm() > limit) continue;
     const Vec3& normal = domain_.field.normal[w];
     const Vec3 flat = disc.direction - normal * normal.dot(disc.direction);
-    marks |= arm_bit(domain_.field.cross[w], flat);
-    if (marks == kBothArms) --open_corners_[block];
+    const std::uint8_t bit = arm_bit(domain_.field.cross[w], flat);
+    // Whoever sets the second bit counts the corner: marks only ever grow.
+    const std::uint8_t before = marks.fetch_or(bit, std::memory_order_relaxed);
+    if (before != kBothArms && (before | bit) == kBothArms) {
+      std::atomic_ref(open_corners_[block]).fetch_sub(1, std::memory_order_relaxed);
+    }
   }
 }
 
@@ -129,7 +136,7 @@ void Coverage::mark_points(Index face, const CoveredDisc& disc) {
   for (auto p = std::partition_point(first, last, is_before);
        p != last && rows.place(p->position) <= middle + margin; ++p) {
     if ((p->position - disc.point).squaredNorm() > disc.distance * disc.distance) continue;
-    p->marks |= arm_bit(p->arm, disc.direction);
+    std::atomic_ref(p->marks).fetch_or(arm_bit(p->arm, disc.direction), std::memory_order_relaxed);
   }
 }
 

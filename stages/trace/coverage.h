@@ -25,6 +25,7 @@ class Coverage {
   /// \param blocks  of the same mesh; both kept by reference
   Coverage(const TraceDomain& domain, const FaceBlocks& blocks);
 
+  /// Marks what lies in a disc. Several threads may do so at the same time.
   void mark(const CoveredDisc& disc, BlockWalk& walk);
 
   /// A place on the surface and one arm of its cross.

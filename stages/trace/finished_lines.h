@@ -1,5 +1,7 @@
 #pragma once
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <unordered_set>
 #include <vector>
 
@@ -18,12 +20,14 @@ class FinishedLines {
       : blocks_(domain.mesh, domain.spacing, barriers),
         proximity_(blocks_, barriers),
         coverage_(domain, blocks_),
-        walk_(blocks_) {}
+        walks_([this] { return BlockWalk(blocks_); }) {}
   FinishedLines(const FinishedLines&) = delete;  // its parts hold references to each other
   FinishedLines& operator=(const FinishedLines&) = delete;
 
   /// Adds what came of a seed. \param line  its number, where it is a line
   void add(const LineDraft& draft, Index line);
+  /// Marks what has been covered by all that was added, which may wait until then.
+  void mark_covered();
 
   [[nodiscard]] const ProximityIndex& proximity() const { return proximity_; }
   [[nodiscard]] const Coverage& coverage() const { return coverage_; }
@@ -34,7 +38,8 @@ class FinishedLines {
   FaceBlocks blocks_;
   ProximityIndex proximity_;
   Coverage coverage_;
-  BlockWalk walk_;
+  tbb::enumerable_thread_specific<BlockWalk> walks_;
+  std::vector<CoveredDisc> to_mark_;
   std::unordered_set<Index> rings_;
 };
 

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
-#include <memory>
 #include <vector>
 
 #include "common/core/observer.h"
@@ -11,10 +9,6 @@
 namespace strake {
 
 /// Traces seeds first come, first served, and collects the lines.
-///
-/// Several lines are traced at the same time where there are threads for it: each as if none of
-/// those before it in the queue would matter, and again where one does. So the lines are those that
-/// one thread would trace.
 class LineCollector {
  public:
   /// \param barriers [3F] half-edges of feature and boundary lines; all kept by reference
@@ -38,25 +32,14 @@ class LineCollector {
   [[nodiscard]] std::int64_t query_count() const { return query_count_; }
 
  private:
-  /// A seed in the queue, and what came of it when no more segments were there than `since`.
-  struct Entry {
-    Seed seed;
-    bool is_traced = false;
-    Index since = 0;
-    LineDraft draft;
-  };
-
-  void trace_ahead(std::deque<Entry>& queue);
-  void finish(const LineDraft& draft, std::deque<Entry>& queue);
-
   const TraceDomain& domain_;
   TracerSettings settings_;
   FinishedLines finished_;
-  std::vector<std::unique_ptr<LineTracer>> tracers_;  ///< one for each thread
+  LineTracer tracer_;
   Observer& observer_;
   LineSet lines_;
   std::size_t tried_ = 0;
-  std::int64_t query_count_ = 0;  ///< for the drafts that counted
+  std::int64_t query_count_ = 0;
   const char* phase_ = "tracing lines";
 };
 

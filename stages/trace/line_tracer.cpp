@@ -60,12 +60,11 @@ double length_of(const TriMesh& mesh, const TracedLine& line) {
 }  // namespace
 
 LineTracer::LineTracer(const TraceDomain& domain, const std::vector<std::uint8_t>& barriers,
-                       const TracerSettings& settings, const FinishedLines& finished,
-                       bool remembers)
+                       const TracerSettings& settings, const FinishedLines& finished)
     : domain_(domain),
       settings_(settings),
       finished_(finished),
-      proximity_(finished.proximity(), remembers),
+      proximity_(finished.proximity()),
       walker_(domain, barriers, proximity_) {}
 
 ProximityHit LineTracer::look_around(const LineHead& head, double fraction,
@@ -261,7 +260,6 @@ LineDraft LineTracer::trace(const Seed& seed) {
   draft.is_line = halves && finish(seed, *halves, draft);
   if (draft.is_line) draft.segments = proximity_.recorded();
   draft.covered = covered_;
-  draft.asked = proximity_.asked();
   draft.query_count = proximity_.query_count();
   return draft;
 }

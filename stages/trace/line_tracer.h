@@ -40,20 +40,16 @@ struct LineDraft {
   std::vector<LineSegment> segments;  ///< for the proximity index
   std::vector<CoveredDisc> covered;   ///< also where there is no line, so that nothing is tried
                                       ///< there again
-  Questions asked;                    ///< empty where the tracer does not remember
   std::int64_t query_count = 0;
 };
 
 /// Traces lines among those that are finished, one at a time ([MK04] sections 3 and 4.2).
-///
-/// Changes nothing but itself: tracers on several threads may share what is finished.
 class LineTracer {
  public:
   /// \param barriers [3F] half-edges of feature and boundary lines
   /// \param finished  all kept by reference
-  /// \param remembers  whether drafts shall tell what they depend on
   LineTracer(const TraceDomain& domain, const std::vector<std::uint8_t>& barriers,
-             const TracerSettings& settings, const FinishedLines& finished, bool remembers);
+             const TracerSettings& settings, const FinishedLines& finished);
   LineTracer(const LineTracer&) = delete;  // its parts hold references to each other
   LineTracer& operator=(const LineTracer&) = delete;
 

@@ -54,45 +54,12 @@ void ProximityIndex::insert(std::span<const LineSegment> segments, Index line) {
   }
 }
 
-bool ProximityIndex::has_news(const Questions& asked, Index since) const {
-  if (segment_count() == since) return false;
-  for (std::size_t q = 0; q < asked.queries.size(); ++q) {
-    const ProximityQuery& query = asked.queries[q];
-    const double limit = query.distance * query.distance;
-    const std::size_t end =
-        q + 1 < asked.queries.size() ? asked.first_block[q + 1] : asked.blocks.size();
-    for (std::size_t at = asked.first_block[q]; at < end; ++at) {
-      bool found = false;
-      segments_.for_near(asked.blocks[at], query.point, query.distance, since,
-                         [&](const LineSegment& segment, Index) {
-                           found = found ||
-                                   (query.is_alike(segment) &&
-                                    squared_distance(query.point, segment.a, segment.b) < limit);
-                         });
-      if (found) return true;
-    }
-  }
-  return false;
-}
-
-ProximityProbe::ProximityProbe(const ProximityIndex& index, bool remembers)
-    : index_(index), walk_(index.blocks()), segments_(index.blocks()), remembers_(remembers) {}
+ProximityProbe::ProximityProbe(const ProximityIndex& index)
+    : index_(index), walk_(index.blocks()), segments_(index.blocks()) {}
 
 void ProximityProbe::clear() {
   shrink(0);
-  asked_ = {};
   query_count_ = 0;
-}
-
-const std::vector<Index>& ProximityProbe::look(const ProximityQuery& query) {
-  ++query_count_;
-  const std::vector<Index>& cell = walk_.around(query.face, query.point, query.distance);
-  if (remembers_) {
-    asked_.queries.push_back(query);
-    asked_.first_block.push_back(asked_.blocks.size());
-    asked_.blocks.insert(asked_.blocks.end(), cell.begin(), cell.end());
-  }
-  return cell;
 }
 
 bool ProximityProbe::can_reach(Index face, const Vec3& point, double distance, Index target) {
@@ -111,6 +78,7 @@ void ProximityProbe::shrink(std::size_t count) {
 }
 
 ProximityHit ProximityProbe::query(const ProximityQuery& query) {
+  ++query_count_;
   ProximityHit hit;
   double best = query.distance * query.distance;
   const auto consider = [&](const Vec3& a, const Vec3& b, Index line) {
@@ -120,9 +88,9 @@ ProximityHit ProximityProbe::query(const ProximityQuery& query) {
     hit.conflict = true;
     hit.line = line;
   };
-  for (const Index block : look(query)) {
+  for (const Index block : walk_.around(query.face, query.point, query.distance)) {
     const auto for_near = [&](const SegmentLists& segments, const auto& use) {
-      segments.for_near(block, query.point, query.distance, 0, use);
+      segments.for_near(block, query.point, query.distance, use);
     };
     for_near(segments_, [&](const LineSegment& own, Index s) {
       const double way = std::abs(arcs_[s] - query.own_arc) - 0.5 * (own.b - own.a).norm();
@@ -142,14 +110,15 @@ ProximityHit ProximityProbe::query(const ProximityQuery& query) {
 
 std::pair<double, double> ProximityProbe::distances_beside(const ProximityQuery& query,
                                                            const Vec3& left) {
+  ++query_count_;
   std::pair<double, double> nearest{query.distance, query.distance};
   const auto consider = [&](const Vec3& a, const Vec3& b) {
     const Vec3 way = way_to_segment(query.point, a, b);
     double& side = way.dot(left) > 0 ? nearest.first : nearest.second;
     side = std::min(side, way.norm());
   };
-  for (const Index block : look(query)) {
-    index_.segments().for_near(block, query.point, query.distance, 0,
+  for (const Index block : walk_.around(query.face, query.point, query.distance)) {
+    index_.segments().for_near(block, query.point, query.distance,
                                [&](const LineSegment& segment, Index) {
                                  if (query.is_alike(segment.direction)) {
                                    consider(segment.a, segment.b);

@@ -38,13 +38,12 @@ class SegmentLists {
   [[nodiscard]] const std::vector<LineSegment>& all() const { return segments_; }
 
   /// Calls use(segment, number) for the pieces in a block that may be nearer to a point than
-  /// `distance`, from number `since` on; for some more than once.
+  /// `distance`; for some more than once.
   template <class Use>
-  void for_near(Index block, const Vec3& point, double distance, Index since,
-                const Use& use) const {
+  void for_near(Index block, const Vec3& point, double distance, const Use& use) const {
     const auto [first, last] = blocks_.slabs(block, point, point, distance);
     for (Index slab = first; slab < last; ++slab) {
-      for (Index n = head_[slab]; n != kNone && nodes_[n].segment >= since; n = nodes_[n].next) {
+      for (Index n = head_[slab]; n != kNone; n = nodes_[n].next) {
         use(segments_[nodes_[n].segment], nodes_[n].segment);
       }
     }
@@ -91,13 +90,6 @@ struct ProximityHit {
   double distance = 0;
 };
 
-/// Queries, and the blocks that each of them looked at.
-struct Questions {
-  std::vector<ProximityQuery> queries;
-  std::vector<std::size_t> first_block;  ///< [Q] into blocks
-  std::vector<Index> blocks;
-};
-
 /// The pieces of all finished lines, by block, and the barriers.
 class ProximityIndex {
  public:
@@ -107,9 +99,6 @@ class ProximityIndex {
 
   /// Adds a finished line.
   void insert(std::span<const LineSegment> segments, Index line);
-
-  /// Whether segments from number `since` on may change the answer to one of these questions.
-  [[nodiscard]] bool has_news(const Questions& asked, Index since) const;
 
   [[nodiscard]] Index segment_count() const { return static_cast<Index>(segments_.all().size()); }
   [[nodiscard]] const SegmentLists& segments() const { return segments_; }
@@ -132,16 +121,12 @@ class ProximityIndex {
 };
 
 /// What one line sees around it: finished lines, barriers, and what it has recorded itself.
-///
-/// Remembers what it was asked, so that it can be told later whether lines finished since would
-/// have changed an answer.
 class ProximityProbe {
  public:
   /// \param index  kept by reference
-  /// \param remembers  whether it keeps its questions
-  ProximityProbe(const ProximityIndex& index, bool remembers);
+  explicit ProximityProbe(const ProximityIndex& index);
 
-  /// Forgets the own line and all questions.
+  /// Forgets the own line.
   void clear();
 
   /// Appends a piece to the own line. \param arc  signed length from the seed, at its middle
@@ -149,7 +134,6 @@ class ProximityProbe {
   /// Takes back the pieces recorded last, down to `count` of them.
   void shrink(std::size_t count);
   [[nodiscard]] const std::vector<LineSegment>& recorded() const { return segments_.all(); }
-  [[nodiscard]] const Questions& asked() const { return asked_; }
 
   ProximityHit query(const ProximityQuery& query);
   /// Distances to the nearest line of the same direction on the side that `left` points to and on
@@ -164,14 +148,10 @@ class ProximityProbe {
   [[nodiscard]] std::int64_t query_count() const { return query_count_; }
 
  private:
-  const std::vector<Index>& look(const ProximityQuery& query);
-
   const ProximityIndex& index_;
   BlockWalk walk_;
   SegmentLists segments_;     ///< of the own line
   std::vector<double> arcs_;  ///< of each
-  bool remembers_;
-  Questions asked_;
   std::int64_t query_count_ = 0;
 };
 

@@ -1,7 +1,10 @@
 #include "stages/trace/spacing.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -42,18 +45,33 @@ Index key_of_arm(const PrincipalField& field, Index w, const Vec3& direction) {
   return c * c >= 0.5 * flat.squaredNorm() ? 2 * w : 2 * w + 1;
 }
 
-/// Calls use(wedge, other wedge, 1 where their crosses are turned, half-edge) for all edges within
-/// a smooth piece of surface, once in each direction.
-template <class Use>
-void for_each_bond(const TriMesh& mesh, const PrincipalField& field, const Use& use) {
-  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
-    if (mesh.twin[h] != kNone && mesh.twin[h] < h && mesh.is_feature[h] == 0) continue;
+constexpr std::uint8_t kNoBond = 2;
+
+/// [3F] 1 where the crosses at the ends of a half-edge are turned against each other, 0 where they
+/// are not, kNoBond for the second half-edge of an edge within a smooth piece of surface.
+std::vector<std::uint8_t> turns_along(const TriMesh& mesh, const PrincipalField& field) {
+  std::vector<std::uint8_t> turned(mesh.halfedge_count(), kNoBond);
+  tbb::parallel_for(Index{0}, mesh.halfedge_count(), [&](Index h) {
+    if (mesh.twin[h] != kNone && mesh.twin[h] < h && mesh.is_feature[h] == 0) return;
     const Index v = mesh.wedge_of(h);
     const Index w = mesh.wedge_of(TriMesh::next(h));
     const Vec3 arm = rotate_between(field.normal[v], field.normal[w], field.cross[v]);
-    const Index turned = std::abs(arm.dot(field.cross[w])) >= M_SQRT1_2 ? 0 : 1;
-    use(v, w, turned, h);
-    use(w, v, turned, h);
+    turned[h] = std::abs(arm.dot(field.cross[w])) >= M_SQRT1_2 ? 0 : 1;
+  });
+  return turned;
+}
+
+/// Calls use(wedge, other wedge, 1 where their crosses are turned, half-edge) for all edges within
+/// a smooth piece of surface, once in each direction.
+/// \param turned  [3F] as from `turns_along`
+template <class Use>
+void for_each_bond(const TriMesh& mesh, const std::vector<std::uint8_t>& turned, const Use& use) {
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    if (turned[h] == kNoBond) continue;
+    const Index v = mesh.wedge_of(h);
+    const Index w = mesh.wedge_of(TriMesh::next(h));
+    use(v, w, turned[h], h);
+    use(w, v, turned[h], h);
   }
 }
 
@@ -117,23 +135,24 @@ SpacingModel::SpacingModel(const TriMesh& mesh, const PrincipalField& field, con
   const Index n = mesh.wedge_count();
   curvature_along_.resize(n);
   curvature_across_.resize(n);
-  for (Index w = 0; w < n; ++w) {
+  tbb::parallel_for(Index{0}, n, [&](Index w) {
     curvature_along_[w] = normal_curvature(field, w, field.cross[w]);
     curvature_across_[w] = normal_curvature(field, w, field.normal[w].cross(field.cross[w]));
-  }
+  });
   collect_bonds();
 }
 
 void SpacingModel::collect_bonds() {
   offsets_.assign(static_cast<std::size_t>(mesh_.wedge_count()) + 1, 0);
-  for_each_bond(mesh_, field_, [&](Index w, Index, Index, Index) { ++offsets_[w + 1]; });
+  const std::vector<std::uint8_t> turned = turns_along(mesh_, field_);
+  for_each_bond(mesh_, turned, [&](Index w, Index, Index, Index) { ++offsets_[w + 1]; });
   for (std::size_t w = 1; w < offsets_.size(); ++w) offsets_[w] += offsets_[w - 1];
   bonded_.resize(offsets_.back());
   distances_.resize(offsets_.back());
   std::vector<Index> fill(offsets_.begin(), offsets_.end() - 1);
-  for_each_bond(mesh_, field_, [&](Index w, Index other, Index turned, Index h) {
+  for_each_bond(mesh_, turned, [&](Index w, Index other, Index turn, Index h) {
     distances_[fill[w]] = (mesh_.positions[mesh_.to(h)] - mesh_.positions[mesh_.from(h)]).norm();
-    bonded_[fill[w]++] = 2 * other + turned;
+    bonded_[fill[w]++] = 2 * other + turn;
   });
   for (Index h = 0; h < mesh_.halfedge_count(); ++h) {
     if (mesh_.is_feature[h] == 0) continue;
@@ -177,7 +196,7 @@ Spacing SpacingModel::ungraded(double tolerance, const SpacingLimits& limits) co
   spacing.along.resize(areas_.size());
   spacing.across.resize(areas_.size());
   const double size_factor = size_ != nullptr ? std::sqrt(tolerance) : 1;
-  for (std::size_t w = 0; w < areas_.size(); ++w) {
+  tbb::parallel_for(std::size_t{0}, areas_.size(), [&](std::size_t w) {
     const auto distance = [&](double curvature, const std::vector<double> SizeField::*size) {
       const double d = size_ != nullptr
                            ? size_factor * (size_->*size)[w]
@@ -190,7 +209,7 @@ Spacing SpacingModel::ungraded(double tolerance, const SpacingLimits& limits) co
     const double b = distance(curvature_across_[w], &SizeField::across);
     spacing.along[w] = std::min(a, limits.aspect_ratio * b);
     spacing.across[w] = std::min(b, limits.aspect_ratio * a);
-  }
+  });
   for (const auto& [key, length] : bounds_) {
     double& value = key % 2 == 0 ? spacing.along[key / 2] : spacing.across[key / 2];
     const double bound = std::max(1.0, limits.scale) * length;  // gives way to a wanted count
@@ -217,12 +236,15 @@ void SpacingModel::grade(const SpacingLimits& limits, Spacing& spacing) const {
                                static_cast<double>(std::max<std::size_t>(1, distances_.size()));
   KeyQueue queue(least, largest, limits.gradation * mean_distance);
   // Start from the values that bound another now; the rest follows in order of size.
-  for (Index key = 0; key < keys; ++key) {
-    bool bounds = aspect[key / 2] * value[key] < value[key ^ 1];
+  std::vector<std::uint8_t> bounds(keys);
+  tbb::parallel_for(Index{0}, keys, [&](Index key) {
+    bounds[key] = aspect[key / 2] * value[key] < value[key ^ 1];
     for_bounded(key, [&](Index other, double distance) {
-      bounds = bounds || value[key] + limits.gradation * distance < value[other];
+      if (value[key] + limits.gradation * distance < value[other]) bounds[key] = 1;
     });
-    if (bounds) queue.push(value[key], key);
+  });
+  for (Index key = 0; key < keys; ++key) {
+    if (bounds[key] != 0) queue.push(value[key], key);
   }
   while (const std::optional<Index> next = queue.pop(value)) {
     const Index key = *next;

@@ -90,10 +90,6 @@ FAULTS = [
           "if (way >= query.own_skip && query.is_alike(own)) consider",
           "if (way < query.own_skip && query.is_alike(own)) consider",
           "trace_tests", "^Proximity|^LineTracer"),
-    Fault("lines traced ahead of their turn stay where others have come near since",
-          "stages/trace/proximity.cpp",
-          "if (found) return true;", "if (found) return false;",
-          "trace_tests", "^LinesOnAPlane"),
     # The mesh
     Fault("of points in the same place of an edge the order is another one on each side",
           "stages/mesh/overlay.cpp",

@@ -109,7 +109,7 @@ void measure(benchmark::State& state, std::size_t count, const Use& use) {
 
 void query(benchmark::State& state, const Data* data) {
   const std::vector<ProximityQuery> queries = queries_along(*data);
-  ProximityProbe probe(data->index, false);
+  ProximityProbe probe(data->index);
   measure(state, queries.size(),
           [&](std::size_t i) { benchmark::DoNotOptimize(probe.query(queries[i])); });
 }

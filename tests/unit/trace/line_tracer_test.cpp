@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <stdexcept>
 
 #include "common/geometry/line_chord.h"
@@ -21,7 +20,7 @@ class Lines {
  public:
   Lines(const TraceDomain& domain, const std::vector<std::uint8_t>& barriers,
         const TracerSettings& settings = {})
-      : finished_(domain, barriers), tracer_(domain, barriers, settings, finished_, true) {}
+      : finished_(domain, barriers), tracer_(domain, barriers, settings, finished_) {}
 
   LineDraft trace(const Seed& seed) {
     LineDraft draft = tracer_.trace(seed);
@@ -29,8 +28,6 @@ class Lines {
     count_ += draft.is_line ? 1 : 0;
     return draft;
   }
-  /// What would come of a seed.
-  LineDraft try_out(const Seed& seed) { return tracer_.trace(seed); }
   [[nodiscard]] const ProximityIndex& proximity() const { return finished_.proximity(); }
 
  private:
@@ -169,50 +166,6 @@ TEST_F(LinesOnAPlane, LeaveNothingWhereTheyAreRefused) {
   EXPECT_FALSE(refused.is_line);
   EXPECT_TRUE(refused.spawned.empty());
   EXPECT_EQ(lines.proximity().segment_count(), before);
-}
-
-bool is_same_way(const std::vector<LineSegment>& a, const std::vector<LineSegment>& b) {
-  return std::ranges::equal(
-      a, b, [](const LineSegment& s, const LineSegment& t) { return s.a == t.a && s.b == t.b; });
-}
-
-// The field turns, so that lines run into each other.
-TEST_F(LinesOnAPlane, StayAsTheyAreWhereLinesFinishedSinceAreNoNews) {
-  field_ = field_along(mesh_, [](const Vec3& p) {
-    return Vec3(std::cos(2 * p.x() + p.y()), std::sin(2 * p.x() + p.y()), 0);
-  });
-  std::mt19937_64 random(1);
-  const auto uniform = [&](double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random);
-  };
-  int news = 0;
-  int stays = 0;
-  int differs = 0;
-  for (int i = 0; i < 200; ++i) {
-    Lines lines(domain_, barriers_);
-    for (int k = 0; k < i % 4; ++k) {
-      lines.trace(seed_at(uniform(-0.9, 0.9), uniform(-0.9, 0.9), Vec3::UnitX()));
-    }
-    const double x = uniform(-0.6, 0.6);
-    const double y = uniform(-0.6, 0.6);
-    const Seed seed = seed_at(x, y, Vec3::UnitX());
-    const Index since = lines.proximity().segment_count();
-    const LineDraft ahead = lines.try_out(seed);
-    lines.trace(seed_at(x + uniform(-0.3, 0.3), y + uniform(-0.3, 0.3),
-                        i % 2 == 0 ? Vec3::UnitX() : Vec3::UnitY()));
-    const LineDraft now = lines.try_out(seed);
-    const bool is_same = ahead.is_line == now.is_line && is_same_way(ahead.segments, now.segments);
-    if (lines.proximity().has_news(ahead.asked, since)) {
-      ++news;
-      differs += is_same ? 0 : 1;
-    } else {
-      EXPECT_TRUE(is_same) << "seed " << i;
-      if (ahead.is_line && lines.proximity().segment_count() > since) ++stays;
-    }
-  }
-  EXPECT_GT(stays, 20);
-  EXPECT_GT(differs, 20);
-  EXPECT_LE(differs, news);
 }
 
 /// Circles on irregular triangles: on the way they turn back over edges and pass vertices, and come

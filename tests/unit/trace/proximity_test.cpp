@@ -39,7 +39,7 @@ class RandomSegments {
         barriers_(mesh.halfedge_count(), 0),
         blocks_(mesh, even_spacing(mesh, distance), barriers_),
         index_(blocks_, barriers_),
-        probe_(index_, false),
+        probe_(index_),
         random_(seed) {
     for (int i = 0; i < count; ++i) add();
   }
@@ -239,7 +239,7 @@ class Hairpin {
         barriers_(barriers),
         blocks_(mesh_, even_spacing(mesh_, distance), barriers_),
         index_(blocks_, barriers_),
-        probe_(index_, false) {}
+        probe_(index_) {}
 
   void insert(const Vec3& middle) {
     const LineSegment segment = segment_along_y(mesh_, middle);
