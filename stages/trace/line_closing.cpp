@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "common/geometry/line_chord.h"
+#include "common/geometry/segment.h"
 
 namespace strake {
 namespace {
@@ -32,6 +33,17 @@ Target target_chord(const TraceDomain& domain, const HalfLine& half, std::size_t
                              line_point_position(domain.mesh, half.points[end]));
   }
   return target;
+}
+
+/// Whether an edge of a face is within a distance of a point. From farther off the straight way
+/// home would stray from the field.
+bool is_near(const TriMesh& mesh, Index face, const Vec3& point, double distance) {
+  for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+    const Vec3 way =
+        way_to_segment(point, mesh.positions[mesh.from(h)], mesh.positions[mesh.to(h)]);
+    if (way.squaredNorm() <= distance * distance) return true;
+  }
+  return false;
 }
 
 /// Whether the head is on its way to the target.
@@ -97,7 +109,8 @@ bool close_line(const TraceDomain& domain, ProximityProbe& proximity, LineWalker
   for (; joined + 2 < half.points.size(); ++joined) {
     const Target target = target_chord(domain, half, joined);
     if ((target.position - half.seed_position).norm() > reach) return false;
-    if (!heads_for(domain, head, half, target, reach, least_cosine) ||
+    if (!is_near(domain.mesh, target.face, point, distance) ||
+        !heads_for(domain, head, half, target, reach, least_cosine) ||
         !proximity.can_reach(face, point, distance, target.face)) {
       continue;
     }
