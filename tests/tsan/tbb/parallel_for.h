@@ -51,10 +51,8 @@ void run(std::size_t count, const Body& body) {
 
 }  // namespace shim
 
-struct simple_partitioner {};
-
 template <class Index, class Body>
-void parallel_for(Index first, Index last, const Body& body, simple_partitioner = {}) {
+void parallel_for(Index first, Index last, const Body& body) {
   if (!(first < last)) return;
   constexpr std::size_t kPiece = 16;
   const auto count = static_cast<std::size_t>(last - first);
@@ -67,7 +65,7 @@ void parallel_for(Index first, Index last, const Body& body, simple_partitioner 
 }
 
 template <class Index, class Body>
-void parallel_for(const blocked_range<Index>& range, const Body& body, simple_partitioner = {}) {
+void parallel_for(const blocked_range<Index>& range, const Body& body) {
   const auto count = static_cast<std::size_t>(range.end() - range.begin());
   const std::size_t grain = range.grainsize();
   shim::run((count + grain - 1) / grain, [&](std::size_t p) {
