@@ -14,24 +14,28 @@ constexpr double kSmallAngle = 20 * std::numbers::pi / 180;
 /// Angles that differ by less are equal: rounding.
 constexpr double kSameAngle = 1e-9;
 
-std::vector<std::array<Index, 2>> crossing_pairs(const PolyMesh& mesh,
-                                                 const std::vector<Vec3>& positions,
-                                                 const std::vector<std::uint8_t>& wanted) {
+/// Pairs that cross, for each face: results that only fold over have less than one.
+constexpr std::size_t kTangledPairs = 8;
+
+FaceTriangles triangulate(const PolyMesh& mesh, const std::vector<Vec3>& positions) {
   FaceTriangles triangles;
   for (Index f = 0; f < mesh.face_count(); ++f) {
     triangulate_face(positions, mesh.face(f), triangles.corners);
     triangles.face.resize(triangles.corners.size(), f);
   }
-  return find_crossing_faces(positions, triangles, wanted);
+  return triangles;
 }
 
 }  // namespace
 
 FaceGuard::FaceGuard(const PolyMesh& mesh, const VertexPlaces& places)
     : mesh_(mesh),
-      allowed_(crossing_pairs(mesh, places.positions(),
-                              std::vector<std::uint8_t>(std::size_t(mesh.face_count()), 1))),
+      allowed_(find_crossing_faces(places.positions(), triangulate(mesh, places.positions()))),
       looked_at_(places.positions()) {}
+
+bool FaceGuard::is_tangled() const {
+  return allowed_.size() > kTangledPairs * static_cast<std::size_t>(mesh_.face_count());
+}
 
 FaceGuard::Form FaceGuard::form(const VertexPlaces& places, Index face) const {
   const std::vector<Vec3>& p = places.positions();
@@ -78,8 +82,8 @@ std::vector<std::uint8_t> FaceGuard::newly_crossing(const VertexPlaces& places) 
   }
   looked_at_ = places.positions();
   std::vector<std::uint8_t> crossing(mesh_.positions.size(), 0);
-  for (const auto& pair : crossing_pairs(mesh_, places.positions(), has_moved)) {
-    if (std::binary_search(allowed_.begin(), allowed_.end(), pair)) continue;
+  const FaceTriangles triangles = triangulate(mesh_, looked_at_);
+  for (const auto& pair : find_crossing_faces(looked_at_, triangles, has_moved, allowed_)) {
     for (const Index f : pair) {
       for (const Index v : mesh_.face(f)) crossing[v] = 1;
     }

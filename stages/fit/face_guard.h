@@ -20,6 +20,9 @@ class FaceGuard {
   /// Faces that cross at these places may go on crossing.
   FaceGuard(const PolyMesh& mesh, const VertexPlaces& places);
 
+  /// Whether so many faces cross from the start that sheets must lie on top of each other: any move
+  /// makes others cross.
+  [[nodiscard]] bool is_tangled() const;
   /// Takes the shapes of the faces as they are now as the state to compare with.
   void set_start(const VertexPlaces& places);
   /// [V] 1 at the vertices of faces that got worse in shape.

@@ -56,6 +56,9 @@ class Fit {
     measure();
   }
 
+  /// Whether nothing can be moved without harm.
+  [[nodiscard]] bool is_tangled() const { return guard_.is_tangled(); }
+
   /// Moves vertices once. \return whether any was moved
   bool improve() {
     guard_.set_start(places_);
@@ -176,7 +179,7 @@ FitResult fit_vertices(const TriMesh& mesh, const PrincipalField* field, const Q
   Fit fit(mesh, field, quads);
   const double before = fit.error();
   std::int64_t rounds = 0;
-  for (bool going = true; going && rounds < options.rounds; ++rounds) {
+  for (bool going = !fit.is_tangled(); going && rounds < options.rounds; ++rounds) {
     going = fit.improve();
     observer.report("moving vertices", double(rounds + 1) / static_cast<double>(options.rounds));
   }

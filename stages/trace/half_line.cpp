@@ -21,6 +21,7 @@ void LineWalker::record(LineHead& head, const Chord& chord, HalfLine& half) {
   half.points.push_back(chord.to);
   half.faces.push_back(chord.face);
   half.families.push_back(head.family);
+  half.arcs.push_back(head.arc);
   LineSegment segment;
   segment.a = head.last_position;
   segment.b = line_point_position(domain_.mesh, chord.to);
@@ -38,6 +39,7 @@ void LineWalker::take_back(LineHead& head, std::size_t count, HalfLine& half) {
   half.points.resize(left);
   half.faces.resize(left);
   half.families.resize(left);
+  half.arcs.resize(left);
   head.last = left > 0 ? half.points.back() : half.origin;
   head.last_position = left > 0 ? line_point_position(domain_.mesh, head.last) : half.seed_position;
 }

@@ -29,6 +29,7 @@ struct HalfLine {
   std::vector<LinePoint> points;
   std::vector<Index> faces;  ///< of the chord that leads to each point
   std::vector<LineFamily> families;
+  std::vector<double> arcs;  ///< length the head had gone at each point
   LineEnd end = LineEnd::stuck;
   Index stopped_by = kNone;  ///< the line it came too close to; kNone for none, or a barrier,
                              ///< kOwnLine for itself

@@ -131,6 +131,7 @@ bool close_line(const TraceDomain& domain, ProximityProbe& proximity, LineWalker
   drop(half.points);
   drop(half.faces);
   drop(half.families);
+  drop(half.arcs);
   half.end = LineEnd::closed;
   return true;
 }

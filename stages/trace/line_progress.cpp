@@ -23,19 +23,16 @@ double perimeter(const FaceChart& face) {
 }
 
 /// Whether a half line, from a point on, crosses an edge twice within a length along it.
+///
+/// By what its head went: on edges much longer than that, points are moved away from vertices by
+/// more than it.
 bool comes_around(const TriMesh& mesh, const HalfLine& half, std::size_t from, double length) {
   std::unordered_map<Index, double> crossed;
-  double arc = 0;
   for (std::size_t i = from; i < half.points.size(); ++i) {
-    const LinePoint& point = half.points[i];
-    if (i > from) {
-      arc +=
-          (line_point_position(mesh, point) - line_point_position(mesh, half.points[i - 1])).norm();
-    }
-    const Index edge = std::max(point.halfedge, mesh.twin[point.halfedge]);
-    const auto [last, is_new] = crossed.try_emplace(edge, arc);
-    if (!is_new && arc - last->second < length) return true;
-    last->second = arc;
+    const Index h = half.points[i].halfedge;
+    const auto [last, is_new] = crossed.try_emplace(std::max(h, mesh.twin[h]), half.arcs[i]);
+    if (!is_new && half.arcs[i] - last->second < length) return true;
+    last->second = half.arcs[i];
   }
   return false;
 }

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -85,6 +86,33 @@ bool is_apart(const Triangle& t, const Triangle& plane) {
          orientation(plane[0], plane[1], plane[2], t[2]) == side;
 }
 
+/// Whether a plane through an edge of `a` has the rest of it strictly on one side, and `b` on the
+/// other one but for a corner it shares with that edge. False is no answer: this sees no more than
+/// rounding lets it, and only planes that stand on `a`, in a tenth of the time of exact tests.
+bool is_beyond_an_edge(const Triangle& a, const Triangle& b) {
+  constexpr double kRounding = 128 * std::numeric_limits<double>::epsilon();
+  const Vec3 normal = (a[1] - a[0]).cross(a[2] - a[0]);
+  for (int i = 0; i < 3; ++i) {
+    const Vec3& from = a[i];
+    const Vec3& to = a[(i + 1) % 3];
+    const Vec3 along = to - from;
+    const Vec3 outward = along.cross(normal);
+    const double scale =
+        kRounding * along.lpNorm<Eigen::Infinity>() * normal.lpNorm<Eigen::Infinity>();
+    const auto is_out = [&](const Vec3& p, double sign) {
+      const Vec3 way = p - from;
+      return sign * outward.dot(way) >
+             scale * way.lpNorm<Eigen::Infinity>() + std::numeric_limits<double>::min();
+    };
+    if (is_out(a[(i + 2) % 3], -1) && std::ranges::all_of(b, [&](const Vec3& p) {
+          return p == from || p == to || is_out(p, 1);
+        })) {
+      return true;
+    }
+  }
+  return false;
+}
+
 /// Whether triangles with a common edge lie flat on each other; `a` and `b` are their other
 /// corners.
 bool is_folded(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b) {
@@ -96,7 +124,6 @@ bool is_folded(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b) {
 }  // namespace
 
 bool triangles_cross(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b) {
-  if (!has_area(a) || !has_area(b)) return false;
   int shared = 0;
   std::array<int, 3> in_a = {0, 0, 0};
   std::array<int, 3> in_b = {0, 0, 0};
@@ -108,6 +135,9 @@ bool triangles_cross(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b)
       ++shared;
     }
   }
+  // With two corners on the edge, what is folded over is not beyond it.
+  if (is_beyond_an_edge(a, b) || is_beyond_an_edge(b, a)) return false;
+  if (!has_area(a) || !has_area(b)) return false;
   if (shared == 3) return true;
   if (shared == 2) {
     return is_folded(a[in_a[0]], a[in_a[1]], a[3 - in_a[0] - in_a[1]], b[3 - in_b[0] - in_b[1]]);
@@ -129,12 +159,12 @@ std::vector<std::array<Index, 2>> find_crossing_faces(const std::vector<Vec3>& p
                                                       const FaceTriangles& triangles) {
   const Index last = triangles.face.empty() ? kNone : std::ranges::max(triangles.face);
   return find_crossing_faces(positions, triangles,
-                             std::vector<std::uint8_t>(static_cast<std::size_t>(last + 1), 1));
+                             std::vector<std::uint8_t>(static_cast<std::size_t>(last + 1), 1), {});
 }
 
-std::vector<std::array<Index, 2>> find_crossing_faces(const std::vector<Vec3>& positions,
-                                                      const FaceTriangles& triangles,
-                                                      const std::vector<std::uint8_t>& wanted) {
+std::vector<std::array<Index, 2>> find_crossing_faces(
+    const std::vector<Vec3>& positions, const FaceTriangles& triangles,
+    const std::vector<std::uint8_t>& wanted, const std::vector<std::array<Index, 2>>& known) {
   std::vector<Triangle> shapes;
   std::vector<Index> faces;
   std::vector<BoxTree::Box> boxes;
@@ -153,10 +183,13 @@ std::vector<std::array<Index, 2>> find_crossing_faces(const std::vector<Vec3>& p
     if (wanted[faces[i]] == 0) return;
     tree.visit_touching(tree.box(i), [&](Index j) {
       const bool is_met_from_there = j <= i && wanted[faces[j]] != 0;
-      if (is_met_from_there || faces[i] == faces[j] || !triangles_cross(shapes[i], shapes[j])) {
-        return;
+      if (is_met_from_there || faces[i] == faces[j]) return;
+      const std::array<Index, 2> pair = {std::min(faces[i], faces[j]),
+                                         std::max(faces[i], faces[j])};
+      if (!std::binary_search(known.begin(), known.end(), pair) &&
+          triangles_cross(shapes[i], shapes[j])) {
+        found[i].push_back(pair);
       }
-      found[i].push_back({std::min(faces[i], faces[j]), std::max(faces[i], faces[j])});
     });
   });
   std::vector<std::array<Index, 2>> pairs;

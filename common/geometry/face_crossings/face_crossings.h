@@ -21,10 +21,12 @@ bool triangles_cross(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b)
 std::vector<std::array<Index, 2>> find_crossing_faces(const std::vector<Vec3>& positions,
                                                       const FaceTriangles& triangles);
 
-/// The same for the pairs of which at least one face is wanted.
+/// The same for the pairs of which at least one face is wanted, and that are not known to cross.
 /// \param wanted  [F] 0 or 1
-std::vector<std::array<Index, 2>> find_crossing_faces(const std::vector<Vec3>& positions,
-                                                      const FaceTriangles& triangles,
-                                                      const std::vector<std::uint8_t>& wanted);
+/// \param known  pairs of faces, the smaller first, ascending; what is tested exactly takes its
+/// time
+std::vector<std::array<Index, 2>> find_crossing_faces(
+    const std::vector<Vec3>& positions, const FaceTriangles& triangles,
+    const std::vector<std::uint8_t>& wanted, const std::vector<std::array<Index, 2>>& known);
 
 }  // namespace strake

@@ -235,6 +235,31 @@ TEST(Fit, NoRoundsChangeNothing) {
   EXPECT_EQ(fitted(sphere.mesh, sphere.quads, 0).mesh.positions, sphere.quads.mesh.positions);
 }
 
+/// So many icospheres in one place, as a result on the fine sphere.
+QuadMesh copies_on(const TriMesh& mesh, int copies) {
+  const PolyMesh coarse = support::transformed(icosphere(1), support::oblique_rotation());
+  PolyMesh all;
+  for (int copy = 0; copy < copies; ++copy) {
+    const Index first = all.vertex_count();
+    all.positions.insert(all.positions.end(), coarse.positions.begin(), coarse.positions.end());
+    for (Index f = 0; f < coarse.face_count(); ++f) {
+      std::vector<Index> corners(coarse.face(f).begin(), coarse.face(f).end());
+      for (Index& v : corners) v += first;
+      all.add_face(corners);
+    }
+  }
+  return placed_on(mesh, all);
+}
+
+// Every face meets those in its place, 17 with 18 copies, and each of these pairs counts for two.
+TEST(Fit, LeavesManySheetsInOnePlaceAlone) {
+  const TriMesh mesh = support::plain_tri_mesh(icosphere(5));
+  const QuadMesh few = copies_on(mesh, 12);
+  EXPECT_NE(fitted(mesh, few).mesh.positions, few.mesh.positions);
+  const QuadMesh many = copies_on(mesh, 18);
+  EXPECT_EQ(fitted(mesh, many).mesh.positions, many.mesh.positions);
+}
+
 TEST(Fit, GivesTheSameBitsForAnyThreadCount) {
   const SphereCase sphere;
   std::vector<std::vector<Vec3>> results;

@@ -258,5 +258,42 @@ TEST(LineTracer, DoesNotWindAroundWhatIsThinnerThanTheDistanceOfLines) {
   EXPECT_LT(length, 4 * M_PI);
 }
 
+// The same around the end of a long needle: a crossing is kept a thousandth of its edge away from
+// vertices, here a hundred to a thousand sides of the needle.
+TEST(LineTracer, DoesNotWindAroundTheTipOfANeedle) {
+  constexpr Index kSides = 6;
+  constexpr double kRadius = 0.01;
+  PolyMesh needle;
+  for (const double length : {0.0, 1e5}) {
+    for (Index i = 0; i < kSides; ++i) {
+      const double angle = 2 * M_PI * i / kSides;
+      const double z = i % 2 == 0 ? length : 10 * length;
+      needle.positions.emplace_back(kRadius * std::cos(angle), kRadius * std::sin(angle), z);
+    }
+  }
+  needle.positions.emplace_back(0, 0, -kRadius);
+  for (Index i = 0; i < kSides; ++i) {
+    const Index next = (i + 1) % kSides;
+    needle.add_face(std::array<Index, 3>{i, next, next + kSides});
+    needle.add_face(std::array<Index, 3>{i, next + kSides, i + kSides});
+    needle.add_face(std::array<Index, 3>{next, i, 2 * kSides});
+  }
+  const TriMesh mesh = support::plain_tri_mesh(needle);
+  const PrincipalField field =
+      field_along(mesh, [](const Vec3& p) { return Vec3(-p.y(), p.x(), 1e-3).normalized(); });
+  Spacing spacing;
+  spacing.along.assign(mesh.wedge_count(), 100.0);
+  spacing.across.assign(mesh.wedge_count(), 100.0);
+  const TraceDomain domain{mesh, field, spacing, face_normals(mesh)};
+  std::vector<std::uint8_t> barriers(static_cast<std::size_t>(mesh.halfedge_count()), 0);
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) barriers[h] = mesh.is_boundary(h);
+  Lines lines(domain, barriers);
+  Seed seed;
+  seed.face = 0;
+  seed.barycentric = Vec3(0.5, 0.5 - 1e-5, 1e-5);
+  seed.direction = field.cross[mesh.face_wedges[0][0]];
+  EXPECT_LT(lines.trace(seed).line.points.size(), 4 * 2 * kSides);
+}
+
 }  // namespace
 }  // namespace strake
