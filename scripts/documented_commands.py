@@ -23,6 +23,8 @@ ELSEWHERE = {
     "cmake --build build --target strake strake-render strake-bench-decimate": ("scripts/test", "--target strake-bench-decimate"),
     "cmake --build build --target strake-bench-decimate": ("scripts/test", "--target strake-bench-decimate"),
     "cmake --build build --target strake-bench-kernels": ("scripts/test", "strake-bench-kernels"),
+    "scripts/mutate": ("scripts/test", "scripts/mutate 1 "),
+    "scripts/sanitize": ("scripts/test", "scripts/sanitize --few"),
     "scripts/fuzz 60": ("tests/fuzz/CMakeLists.txt", "scripts/fuzz --built"),
     "cpack -G DEB": ("tests/package/check_debian.py", 'run("cpack", "-G", "DEB"'),
 }
@@ -55,11 +57,7 @@ ON_SMALL_MODELS = {
 
 # Run by a person: why no test does.
 BY_HAND = {
-    "scripts/sanitize": "builds the programs anew, twice, and takes an hour",
-    "scripts/mutate": "builds a part of everything anew for each fault, for half an hour; a test looks whether the faults fit",
-    "paraview --state=pictures/run.pvsm": "opens a window; a test makes the state",
-    "tests/paraview/make_root paraview-root": "fetches 2 GB; before each release",
-    "STRAKE_PVPYTHON=$PWD/paraview-root/pvpython ctest --preset release -L paraview": "takes the above",
+    "scripts/check_paraview": "fetches 2 GB; before each release",
 }
 
 # Commands that serve until their input ends, for the others of their page, and what those are told.

@@ -1,7 +1,7 @@
 """Shows a run of strake in ParaView: pvpython show_run.py FOLDER PICTURES
 
 FOLDER is what `strake remesh --keep FOLDER` leaves. Each step of docs/paraview.md becomes a picture in PICTURES, and
-all of them together a state that ParaView opens: paraview --state=PICTURES/run.pvsm. Says of each file what it holds.
+all of them together a state that ParaView opens, PICTURES/run.pvsm. Says of each file what it holds.
 """
 
 import pathlib

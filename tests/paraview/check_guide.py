@@ -21,7 +21,7 @@ def pvpython():
     if os.environ.get("STRAKE_PVPYTHON"):
         return [os.environ["STRAKE_PVPYTHON"]]
     if not shutil.which("pvpython") or not shutil.which("xvfb-run"):
-        print("skipped: there is no pvpython with xvfb-run; tests/paraview/make_root makes one")
+        print("skipped: there is no pvpython with xvfb-run; scripts/check_paraview makes one")
         sys.exit(77)
     return ["xvfb-run", "-a", "-s", "-screen 0 1024x768x24", "pvpython"]
 

@@ -124,6 +124,8 @@ bool is_folded(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b) {
 }  // namespace
 
 bool triangles_cross(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b) {
+  if (is_beyond_an_edge(a, b) || is_beyond_an_edge(b, a)) return false;
+  if (!has_area(a) || !has_area(b)) return false;
   int shared = 0;
   std::array<int, 3> in_a = {0, 0, 0};
   std::array<int, 3> in_b = {0, 0, 0};
@@ -135,9 +137,6 @@ bool triangles_cross(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b)
       ++shared;
     }
   }
-  // With two corners on the edge, what is folded over is not beyond it.
-  if (is_beyond_an_edge(a, b) || is_beyond_an_edge(b, a)) return false;
-  if (!has_area(a) || !has_area(b)) return false;
   if (shared == 3) return true;
   if (shared == 2) {
     return is_folded(a[in_a[0]], a[in_a[1]], a[3 - in_a[0] - in_a[1]], b[3 - in_b[0] - in_b[1]]);
