@@ -31,6 +31,8 @@ constexpr std::array<Quadrature, 6> kRule = {{{0.223381589678011, {kA, kB, kB}},
 constexpr double kLeastAgreement = 0.5;
 /// Shorter ways, as a share of the diagonal, have no direction of their own.
 constexpr double kNoWay = 1e-12;
+/// Distance that counts double, in root mean squares.
+constexpr double kFar = 2;
 /// Samples of the surface for each triangle of the result, at most.
 constexpr std::size_t kSurfaceSamples = 4;
 
@@ -45,8 +47,9 @@ void set_way(DistanceSample& sample, const Vec3& way, const Vec3& normal, double
 /// The least-squares problem of samples on one triangle.
 class TriangleTerms {
  public:
-  void add(const DistanceSample& sample) {
-    const Vec3 weighted = sample.weight * sample.direction;
+  /// \param slope  factor on the weight
+  void add(const DistanceSample& sample, double slope) {
+    const Vec3 weighted = slope * sample.weight * sample.direction;
     const Mat3 along = weighted * sample.direction.transpose();
     int pair = 0;
     for (int i = 0; i < 3; ++i) {
@@ -93,6 +96,10 @@ void Deviation::measure(const std::vector<Vec3>& positions,
                         const std::vector<std::array<Index, 3>>& triangles) {
   measure_result(positions, triangles);
   measure_surface(positions, triangles);
+  if (per_far_ < 0) {
+    const double rms = std::sqrt(mean());
+    per_far_ = rms > 0 ? 1 / (kFar * rms) : 0;
+  }
 }
 
 void Deviation::measure_result(const std::vector<Vec3>& positions,
@@ -154,6 +161,21 @@ double Deviation::sum() const {
   return sum;
 }
 
+double Deviation::cost() const {
+  double sum = 0;
+  for (const auto* samples : {&from_result_, &from_surface_}) {
+    for (const DistanceSample& s : *samples) {
+      sum += s.weight * s.distance * s.distance * (1 + std::abs(s.distance) * per_far_);
+    }
+  }
+  return sum;
+}
+
+/// Slope of the cost over the squared distance, for an area of 1.
+double Deviation::slope_of(const DistanceSample& sample) const {
+  return 1 + 1.5 * std::abs(sample.distance) * per_far_;
+}
+
 double Deviation::mean() const {
   double area = 0;
   for (const auto* samples : {&from_result_, &from_surface_}) {
@@ -166,12 +188,14 @@ void Deviation::add_to(BlockSystem& system) const {
   // The six samples of a triangle concern the same vertices: their sum is looked up once.
   for (std::size_t first = 0; first < from_result_.size(); first += kRule.size()) {
     TriangleTerms terms;
-    for (std::size_t s = first; s < first + kRule.size(); ++s) terms.add(from_result_[s]);
+    for (std::size_t s = first; s < first + kRule.size(); ++s) {
+      terms.add(from_result_[s], slope_of(from_result_[s]));
+    }
     terms.add_to(system, from_result_[first].corners);
   }
   for (const DistanceSample& s : from_surface_) {
     TriangleTerms terms;
-    terms.add(s);
+    terms.add(s, slope_of(s));
     terms.add_to(system, s.corners);
   }
 }

@@ -44,12 +44,19 @@ class Deviation {
   [[nodiscard]] double sum() const;
   [[nodiscard]] double mean() const;
 
-  /// Adds the least-squares problem of closing all gaps by moves of the vertices.
+  /// What moves are to lower: that sum, in which a distance d counts 1 + d / far times, where far
+  /// is twice the root mean square of the first measurement. A few far places are what one sees,
+  /// and weigh little in a sum of squares.
+  [[nodiscard]] double cost() const;
+
+  /// Adds the least-squares problem of closing all gaps by moves of the vertices, by the slope of
+  /// the cost.
   void add_to(BlockSystem& system) const;
 
  private:
   void measure_result(const std::vector<Vec3>& positions,
                       const std::vector<std::array<Index, 3>>& triangles);
+  [[nodiscard]] double slope_of(const DistanceSample& sample) const;
   void measure_surface(const std::vector<Vec3>& positions,
                        const std::vector<std::array<Index, 3>>& triangles);
 
@@ -60,6 +67,7 @@ class Deviation {
   std::vector<double> vertex_areas_;         ///< of the input
   std::vector<DistanceSample> from_result_;  ///< six for each triangle
   std::vector<DistanceSample> from_surface_;
+  double per_far_ = -1;  ///< 1 / far, in units of length; 0 where all distances are
 };
 
 }  // namespace strake::fitting

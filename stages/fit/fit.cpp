@@ -91,7 +91,7 @@ class Fit {
  private:
   /// What is minimised. \param square  squared distance that a turn by a radian is worth
   [[nodiscard]] double cost(double square) const {
-    return deviation_.sum() + sum_of(lines_.terms(places_, field_, square));
+    return deviation_.cost() + sum_of(lines_.terms(places_, field_, square));
   }
 
   void measure() {
