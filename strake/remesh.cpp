@@ -63,7 +63,8 @@ struct RemeshCommand {
 Session::Keeper keeper(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (!fs::is_directory(folder)) {
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) {
     throw InputError("folder '" + folder.string() + "' cannot be made: " + error.message());
   }
   return [folder](const Session::Kept& kept) {

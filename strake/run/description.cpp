@@ -24,6 +24,12 @@ constexpr const char* kVersion = "1";
 
 constexpr const char* kPatternMarks = "*?[";
 
+/// Also false where the system cannot tell, as for names that are too long.
+bool is_file(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
 /// Regular files that a pattern matches, in alphabetical order.
 std::vector<std::string> matching_files(const fs::path& folder, const std::string& pattern) {
   std::string whole;  // in which marks in the folder's name are no marks
@@ -41,7 +47,7 @@ std::vector<std::string> matching_files(const fs::path& folder, const std::strin
   if (::glob(whole.c_str(), 0, nullptr, &matches) == 0) {
     for (std::size_t i = 0; i < matches.gl_pathc; ++i) {
       const fs::path file = fs::path(matches.gl_pathv[i]).lexically_normal();
-      if (fs::is_regular_file(file)) files.push_back(file.string());
+      if (is_file(file)) files.push_back(file.string());
     }
   }
   ::globfree(&matches);
@@ -183,7 +189,7 @@ class Reader {
     names.erase(std::unique(names.begin(), names.end()), names.end());
     for (const auto& [name, value] : view.fields("inputs of a model", names)) {
       const fs::path file = (folder_ / value.text("a file")).lexically_normal();
-      if (!fs::is_regular_file(file)) {
+      if (!is_file(file)) {
         value.fail(fmt::format("there is no file '{}'", file.string()));
       }
       model.inputs[name] = file;
@@ -224,9 +230,9 @@ class Reader {
   /// Adds the file, or each file that a pattern with * or ? matches, named by its stem.
   void add_files(const std::string& name, const std::string& text, const Place& place) {
     const fs::path file = (folder_ / text).lexically_normal();
-    const bool is_file = fs::is_regular_file(file);
-    if (is_file || text.find_first_of(kPatternMarks) == std::string::npos) {
-      if (!is_file) place.fail(fmt::format("there is no file '{}'", file.string()));
+    const bool is_there = is_file(file);
+    if (is_there || text.find_first_of(kPatternMarks) == std::string::npos) {
+      if (!is_there) place.fail(fmt::format("there is no file '{}'", file.string()));
       add_model(name.empty() ? file.stem().string() : name, place, file);
       return;
     }

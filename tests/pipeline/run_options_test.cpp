@@ -138,6 +138,13 @@ TEST_F(RunOptions, BadFilesLeaveNothingBehind) {
   must_fail(kBadInput, "strake run -f .", "cannot be read");
 }
 
+TEST_F(RunOptions, NamesTooLongForTheSystemAreRefused) {
+  const std::string name(300, 'x');
+  must_fail(kBadInput, "strake run --store " + name, "cannot be made");
+  must("strake sample torus -o torus.ply --faces 500");
+  must_fail(kBadInput, "strake remesh torus.ply -o out.obj --keep " + name, "cannot be made");
+}
+
 /// Two models of which one cannot be imported.
 class Failure : public PipelineTest {
  protected:

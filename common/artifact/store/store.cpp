@@ -123,7 +123,8 @@ void Store::check_format() const {
 void Store::prepare() const {
   std::error_code error;
   fs::create_directories(side_folder("digests"), error);
-  if (!fs::is_directory(root_)) {
+  std::error_code ignored;
+  if (!fs::is_directory(root_, ignored)) {
     throw InputError(fmt::format("store '{}' cannot be made: {}; check the rights, or name another",
                                  root_.string(), error.message()));
   }

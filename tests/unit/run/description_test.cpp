@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
 
 #include "common/core/error.h"
 #include "tests/unit/run/pipeline_file.h"
@@ -15,7 +16,7 @@ namespace fs = std::filesystem;
 /// A file with something wrong, where it is, and a part of what must be said about it.
 struct Fault {
   const char* name;
-  const char* text;
+  std::string text;
   const char* place;  ///< "line:column: "
   const char* part;
 };
@@ -50,6 +51,8 @@ const Fault kFaults[] = {
     {"ModelsNull", "version: 1\nmodels:\n", "2:1: ", "there is no model"},
     {"ModelsIsText", "version: 1\nmodels: a.obj\n", "2:9: ", "'key: value'"},
     {"MissingFile", "version: 1\nmodels:\n  - a.obj\n  - c.obj\n", "4:5: ", "there is no file"},
+    {"LongNameOfFile", "version: 1\nmodels:\n  - " + std::string(300, 'x') + "\n",
+     "3:5: ", "there is no file"},
     {"FolderAsFile", "version: 1\nmodels: [.]\n", "2:10: ", "there is no file"},
     {"PatternWithoutMatch", "version: 1\nmodels: ['*.stl']\n", "2:10: ", "no file matches"},
     {"PatternWithAName", "version: 1\nmodels: {x: '*.obj'}\n", "2:13: ", "no single name"},
@@ -73,6 +76,9 @@ const Fault kFaults[] = {
     {"UnknownInput", "version: 1\nmodels: {x: {file: a.obj, inputs: {guide: g.obj}}}\n",
      "2:36: ", "did you mean 'guides'"},
     {"MissingInput", "version: 1\nmodels: {x: {file: a.obj, inputs: {guides: none.obj}}}\n",
+     "2:44: ", "there is no file"},
+    {"LongNameOfInput",
+     "version: 1\nmodels: {x: {file: a.obj, inputs: {guides: " + std::string(300, 'x') + "}}}\n",
      "2:44: ", "there is no file"},
     {"InputsIsText", "version: 1\nmodels: {x: {file: a.obj, inputs: a.obj}}\n",
      "2:35: ", "'key: value'"},
