@@ -15,6 +15,7 @@ Figures, None where the judge does not know them:
 import json
 import os
 import pathlib
+import sys
 import tempfile
 
 import documents
@@ -114,11 +115,36 @@ def percent(share):
     return None if share is None else 100 * share
 
 
-def meter():
-    """The independent meter: $STRAKE_METER, else the one that scripts/build_meter builds; or None."""
+def meter_path():
+    """Where the independent meter is: $STRAKE_METER, else the one that scripts/build_meter builds."""
     default = documents.ROOT / "build" / "meter" / "meshmeter"
-    path = pathlib.Path(os.environ.get("STRAKE_METER") or default)
-    return Meter(path) if path.exists() else None
+    return pathlib.Path(os.environ.get("STRAKE_METER") or default)
+
+
+def meter():
+    """The independent meter, or None."""
+    return Meter(meter_path()) if meter_path().exists() else None
+
+
+def add_arguments(parser):
+    """The program to test, the test models and the meter, as arguments of a test."""
+    parser.add_argument("--strake", required=True, help="the program to test")
+    parser.add_argument("--models", type=pathlib.Path, default=documents.models_folder(),
+                        help="default: $STRAKE_MODELS, else ../shared/models beside the source tree")
+    parser.add_argument("--meter", type=pathlib.Path, default=meter_path(),
+                        help="default: $STRAKE_METER, else what scripts/build_meter builds")
+
+
+def check_arguments(arguments):
+    """Ends a test whose models or meter are missing: a failure where CI is set, skipped (77) else."""
+    missing = None
+    if not (arguments.models / "MANIFEST.md").exists():
+        missing = "there are no test models: set STRAKE_MODELS to their folder"
+    elif not arguments.meter.exists():
+        missing = "there is no meter: run scripts/build_meter, or set STRAKE_METER to it"
+    if missing:
+        print(f"{pathlib.Path(sys.argv[0]).stem}: {missing}", file=sys.stderr)
+        sys.exit(1 if os.environ.get("CI") else 77)
 
 
 def judge():

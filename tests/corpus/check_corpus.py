@@ -40,10 +40,10 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.append(str(ROOT / "scripts"))
 
 import documents  # noqa: E402
+import judges  # noqa: E402
 
 CATEGORIES = ("scan", "cad", "genus", "open")
 ALL_CLEAN = (*CATEGORIES, "poly", "large")
-SKIPPED = 77
 PARALLEL = 2
 
 MOST_CONCAVE_PERCENT = 0.5
@@ -264,9 +264,7 @@ def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("suite", choices=TIME_LIMIT)
     parser.add_argument("names", nargs="*", help="only models whose file name contains one of these")
-    parser.add_argument("--strake", required=True, help="the program to test")
-    parser.add_argument("--models",
-                        help="default: $STRAKE_MODELS, else ../shared/models beside the source tree")
+    judges.add_arguments(parser)
     parser.add_argument("--count", type=int, default=2000, help="generated meshes")
     parser.add_argument("--first", type=int, default=0, help="seed of the first of them")
     parser.add_argument("--table", type=pathlib.Path, help="document to put the results into")
@@ -274,31 +272,18 @@ def parse_arguments():
     parser.add_argument("--slower", type=int, default=1,
                         help="factor on time limits, for programs built with sanitizers")
     parser.add_argument("--most-bytes", type=int, help="only models of files up to that size")
-    parser.add_argument("--meter", default=os.environ.get("STRAKE_METER"),
-                        help="default: $STRAKE_METER, else what scripts/build_meter builds")
     return parser.parse_args()
-
-
-def missing(what):
-    print(f"check_corpus: {what}", file=sys.stderr)
-    return 1 if os.environ.get("CI") else SKIPPED
 
 
 def main():
     arguments = parse_arguments()
-    folder = pathlib.Path(arguments.models or documents.models_folder())
-    meter = pathlib.Path(arguments.meter or ROOT / "build" / "meter" / "meshmeter")
-    if not (folder / "MANIFEST.md").exists():
-        return missing("there are no test models: set STRAKE_MODELS to their folder")
-    if not meter.exists():
-        return missing("there is no meter: run scripts/build_meter, or set STRAKE_METER to it")
-
+    judges.check_arguments(arguments)
     with tempfile.TemporaryDirectory(prefix="strake-corpus-") as scratch:
         scratch = pathlib.Path(scratch)
         if arguments.suite == "adversarial":
             cases = generated(arguments, scratch)
         else:
-            cases = cases_of(arguments.suite, folder)
+            cases = cases_of(arguments.suite, arguments.models)
         if arguments.names:
             cases = [case for case in cases if any(name in case.name for name in arguments.names)]
         if arguments.most_bytes:
@@ -306,7 +291,7 @@ def main():
         if not cases:
             print("check_corpus: error: no model of that name", file=sys.stderr)
             return 2
-        code = check_all(cases, Checker(arguments.suite, arguments.strake, meter, scratch, arguments.slower),
+        code = check_all(cases, Checker(arguments.suite, arguments.strake, arguments.meter, scratch, arguments.slower),
                          arguments.keep)
         if arguments.table:
             text = arguments.table.read_text(encoding="utf-8")

@@ -15,7 +15,6 @@ environment CI that is a failure too).
 import argparse
 import json
 import math
-import os
 import pathlib
 import random
 import subprocess
@@ -25,9 +24,8 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.append(str(ROOT / "scripts"))
 
-import documents  # noqa: E402
+import judges  # noqa: E402
 
-SKIPPED = 77
 MODELS = ["cad/wingnut.obj", "scan/spot.obj", "open/lilium.obj"]
 VERTICES = 1000
 SEED = 2004
@@ -152,30 +150,17 @@ def check(program, path):
     return count
 
 
-def missing(what):
-    print(f"moved_models: {what}", file=sys.stderr)
-    return 1 if os.environ.get("CI") else SKIPPED
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("names", nargs="*", default=MODELS, help="models of the folder, OBJ")
-    parser.add_argument("--strake", required=True, help="the program to test")
-    parser.add_argument("--models", help="default: $STRAKE_MODELS, else ../shared/models beside the source tree")
-    parser.add_argument("--meter", default=os.environ.get("STRAKE_METER"),
-                        help="default: $STRAKE_METER, else what scripts/build_meter builds")
+    judges.add_arguments(parser)
     parser.add_argument("--threads", type=int, default=1)
     arguments = parser.parse_args()
-    folder = pathlib.Path(arguments.models or documents.models_folder())
-    meter = pathlib.Path(arguments.meter or ROOT / "build" / "meter" / "meshmeter")
-    if not (folder / "MANIFEST.md").exists():
-        return missing("there are no test models: set STRAKE_MODELS to their folder")
-    if not meter.exists():
-        return missing("there is no meter: run scripts/build_meter, or set STRAKE_METER to it")
+    judges.check_arguments(arguments)
     print(f"{'model':16s} {'':24s} {'V':>6} {'quads%':>6} {'rms':>7}  (in 1e-4 of the diagonal)")
     with tempfile.TemporaryDirectory(prefix="strake-moved-") as scratch:
-        program = Program(arguments.strake, meter, arguments.threads, pathlib.Path(scratch))
-        return 1 if sum(check(program, folder / name) for name in arguments.names) else 0
+        program = Program(arguments.strake, arguments.meter, arguments.threads, pathlib.Path(scratch))
+        return 1 if sum(check(program, arguments.models / name) for name in arguments.names) else 0
 
 
 if __name__ == "__main__":
