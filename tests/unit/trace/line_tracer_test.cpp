@@ -230,6 +230,18 @@ TEST_F(LinesOnAPlane, PassNarrowsWhereTheyGetOutAgain) {
   }
 }
 
+/// The line from a seed, where others would be so far apart and there is none.
+TracedLine only_line(const TriMesh& mesh, const PrincipalField& field, double distance,
+                     const Seed& seed) {
+  Spacing spacing;
+  spacing.along.assign(mesh.wedge_count(), distance);
+  spacing.across.assign(mesh.wedge_count(), distance);
+  const TraceDomain domain{mesh, field, spacing, face_normals(mesh)};
+  std::vector<std::uint8_t> barriers(static_cast<std::size_t>(mesh.halfedge_count()), 0);
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) barriers[h] = mesh.is_boundary(h);
+  return Lines(domain, barriers).trace(seed).line;
+}
+
 // A helix of gentle slope on a cylinder that is thinner than the distance of lines: what is left of
 // it is not even two windings long, where it would have forty.
 TEST(LineTracer, DoesNotWindAroundWhatIsThinnerThanTheDistanceOfLines) {
@@ -238,17 +250,10 @@ TEST(LineTracer, DoesNotWindAroundWhatIsThinnerThanTheDistanceOfLines) {
   const double slope = 5 / (2 * M_PI);
   const PrincipalField field =
       field_along(mesh, [&](const Vec3& p) { return Vec3(-p.y(), p.x(), slope).normalized(); });
-  Spacing spacing;
-  spacing.along.assign(mesh.wedge_count(), 10.0);
-  spacing.across.assign(mesh.wedge_count(), 10.0);
-  const TraceDomain domain{mesh, field, spacing, face_normals(mesh)};
-  std::vector<std::uint8_t> barriers(static_cast<std::size_t>(mesh.halfedge_count()), 0);
-  for (Index h = 0; h < mesh.halfedge_count(); ++h) barriers[h] = mesh.is_boundary(h);
-  Lines lines(domain, barriers);
   Seed seed;
   seed.face = mesh.face_count() / 2;
   seed.direction = field.cross[mesh.face_wedges[seed.face][0]];
-  const TracedLine line = lines.trace(seed).line;
+  const TracedLine line = only_line(mesh, field, 10, seed);
   double length = 0;
   for (std::size_t i = 1; i < line.points.size(); ++i) {
     length +=
@@ -259,7 +264,7 @@ TEST(LineTracer, DoesNotWindAroundWhatIsThinnerThanTheDistanceOfLines) {
 }
 
 // The same around the end of a long needle: a crossing is kept a thousandth of its edge away from
-// vertices, here a hundred to a thousand sides of the needle.
+// vertices, here thousands of times farther than the needle is around.
 TEST(LineTracer, DoesNotWindAroundTheTipOfANeedle) {
   constexpr Index kSides = 6;
   constexpr double kRadius = 0.01;
@@ -281,18 +286,11 @@ TEST(LineTracer, DoesNotWindAroundTheTipOfANeedle) {
   const TriMesh mesh = support::plain_tri_mesh(needle);
   const PrincipalField field =
       field_along(mesh, [](const Vec3& p) { return Vec3(-p.y(), p.x(), 1e-3).normalized(); });
-  Spacing spacing;
-  spacing.along.assign(mesh.wedge_count(), 100.0);
-  spacing.across.assign(mesh.wedge_count(), 100.0);
-  const TraceDomain domain{mesh, field, spacing, face_normals(mesh)};
-  std::vector<std::uint8_t> barriers(static_cast<std::size_t>(mesh.halfedge_count()), 0);
-  for (Index h = 0; h < mesh.halfedge_count(); ++h) barriers[h] = mesh.is_boundary(h);
-  Lines lines(domain, barriers);
   Seed seed;
   seed.face = 0;
   seed.barycentric = Vec3(0.5, 0.5 - 1e-5, 1e-5);
   seed.direction = field.cross[mesh.face_wedges[0][0]];
-  EXPECT_LT(lines.trace(seed).line.points.size(), 4 * 2 * kSides);
+  EXPECT_LT(only_line(mesh, field, 100, seed).points.size(), 4 * 2 * kSides);
 }
 
 }  // namespace
