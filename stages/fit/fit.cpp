@@ -188,7 +188,7 @@ FitResult fit_vertices(const TriMesh& mesh, const PrincipalField* field, const Q
   for (std::size_t v = 0; v < quads.mesh.positions.size(); ++v) {
     moved = std::max(moved, (result.quads.mesh.positions[v] - quads.mesh.positions[v]).norm());
   }
-  const Index divided = fitting::divide_crossing_faces(result.quads.mesh);
+  const Index divided = fit.is_tangled() ? 0 : fitting::divide_crossing_faces(result.quads.mesh);
   result.quads.mesh.attributes = carry_attributes(mesh, result.quads.mesh, result.quads.provenance);
   result.report.set("fit.divided_faces", std::int64_t{divided});
   result.report.set("fit.rounds", rounds);
