@@ -98,11 +98,23 @@ void follow_density(Session& session, const GoalStages& stages, Counted counted,
   scale.parse_into(best_scale);
 }
 
-/// Looks for the scale of distances that gives the count. \pre traced and meshed at the present one
+/// Whether every face must stay a quad, so that cells cannot be divided one by one.
+bool only_quads(const GoalStages& stages) {
+  return stages.mesh.option("pure-quads").value() == "true";
+}
+
+/// Looks for the scale of distances that gives the count. Where all are too far above or below it,
+/// as on coarse meshes, takes what is below: cells can be divided. \pre traced and meshed at the
+/// present scale
 void search_scale(Session& session, const GoalStages& stages, Counted counted, std::int64_t aim) {
   const Option& option = stages.trace.option("spacing-scale");
   CountSearch search(aim, std::stod(option.value()), option.min, option.max);
-  Session best = session;
+  struct Found {
+    Session session;
+    CountSearch::Trial trial;
+  };
+  Found best{session, {}};
+  std::optional<Found> below;
   while (const std::optional<double> scale = search.next()) {
     option.parse_into(fmt::format("{}", *scale));
     try {
@@ -115,15 +127,13 @@ void search_scale(Session& session, const GoalStages& stages, Counted counted, s
     const std::int64_t count = count_of(session, "quads", counted);
     session.say(fmt::format("{} {}, {} wanted", count, name_of(counted), aim));
     search.record(*scale, count);
-    if (search.best().scale == *scale) best = session;
+    if (search.best().scale == *scale) best = {session, search.best()};
+    if (count <= aim && (!below || count > below->trial.count)) below = {session, {*scale, count}};
   }
-  session = best;
-  option.parse_into(fmt::format("{}", search.best().scale));
-}
-
-/// Whether every face must stay a quad, so that cells cannot be divided one by one.
-bool only_quads(const GoalStages& stages) {
-  return stages.mesh.option("pure-quads").value() == "true";
+  const bool is_missed = search.error(search.best().count) > kCountTolerance;
+  const Found& chosen = is_missed && below && !only_quads(stages) ? *below : best;
+  session = chosen.session;
+  option.parse_into(fmt::format("{}", chosen.trial.scale));
 }
 
 /// Fits the refined result once more.
