@@ -31,7 +31,8 @@ class App {
   constructor(report, runs) {
     this.report = report;
     this.runs = runs;
-    this.view = fromHash(location.hash, firstView(runs.length), runs.length);
+    this.address = location.hash;
+    this.view = fromHash(this.address, firstView(runs.length), runs.length);
     this.numbers = el("div", { class: "numbers", hidden: true, role: "status" });
     this.labels = el("div", { class: "labels" });
     this.divider = el("div", { class: "divider", hidden: true, title: "Drag to wipe" });
@@ -119,8 +120,9 @@ class App {
   noteAddress() {
     clearTimeout(this.addressTimer);
     this.addressTimer = setTimeout(() => {
-      this.address = this.link;
-      history.replaceState(null, "", this.address);
+      if (location.hash !== this.address) return; // a new one has come in, its event is on the way
+      history.replaceState(null, "", this.link);
+      this.address = location.hash;
     }, 150);
   }
 
@@ -160,6 +162,7 @@ class App {
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.stage.draw());
     addEventListener("hashchange", () => {
       if (location.hash === this.address) return;
+      this.address = location.hash;
       Object.assign(this.view, fromHash(location.hash, firstView(this.runs.length), this.runs.length));
       this.stage.placeCamera();
       this.set(() => {});
