@@ -33,12 +33,17 @@ constexpr double kHold = 0.02;
 /// Weight that holds it back on the surface: squared distance, in mean ones, that a move by the
 /// length of an edge is worth.
 constexpr double kHoldOnSurface = 10;
-/// Even where the distance is zero a vertex is held on the surface, by this share of the area.
-constexpr double kLeastHold = 1e-6;
-/// A vertex moves by at most this share of its shortest edge in a round.
+/// Root mean square of the distance, as a share of the diagonal, below which it is no reason to
+/// leave vertices where they are: what is flat goes by directions and even steps alone.
+constexpr double kUnseen = 1e-6;
+/// The least hold on the surface, likewise, in squares of that: no vertex is entirely free.
+constexpr double kLeastHold = 0.1;
+/// A vertex moves by at most this share of the way to a neighbour in a round, and of its shortest
+/// edge along the normal.
 constexpr double kLongestMove = 0.25;
-/// Moves by a smaller share are rounding: they would only spoil what lies exactly in a plane.
-constexpr double kShortestMove = 1e-9;
+/// Moves by a smaller share of its shortest edge, along the normal or altogether, are rounding:
+/// they would only spoil what lies exactly in a plane.
+constexpr double kShortestMove = 1e-8;
 constexpr std::array<double, 3> kSteps = {1, 0.5, 0.25};  ///< shares of the moves that are tried
 constexpr int kMostRetreats = 10;  ///< times that vertices are put back for one step
 
@@ -47,6 +52,7 @@ class Fit {
   Fit(const TriMesh& mesh, const PrincipalField* field, const QuadMesh& quads)
       : quads_(quads),
         field_(field),
+        unseen_(kUnseen * mesh.diagonal),
         surface_(mesh.positions, mesh.faces),
         places_(mesh, surface_, quads),
         deviation_(mesh, surface_, places_.face_normals(), places_.wedge_normals()),
@@ -63,7 +69,7 @@ class Fit {
   bool improve() {
     guard_.set_start(places_);
     const std::vector<VertexPlaces::State> start = places_.states();
-    const double square = deviation_.mean();
+    const double square = std::max(deviation_.mean(), unseen_ * unseen_);
     const double cost_before = cost(square);
     const std::vector<Vec3> moves = solve(square);
     if (std::ranges::all_of(moves, [](const Vec3& move) { return move.isZero(0); })) return false;
@@ -127,39 +133,58 @@ class Fit {
     system_.set_zero();
     deviation_.add_to(system_);
     add_to(system_, lines_.terms(places_, field_, square));
-    std::vector<double> area(places_.positions().size(), 0.0);
-    std::vector<double> shortest(area.size(), std::numeric_limits<double>::infinity());
     const std::vector<Vec3>& p = places_.positions();
+    std::vector<double> area(p.size(), 0.0);
     for (const auto& [a, b, c] : triangles_) {
       const double third = (p[b] - p[a]).cross(p[c] - p[a]).norm() / 6;
       for (const Index v : {a, b, c}) area[v] += third;
-      for (const auto& [v, w] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}}) {
-        const double length = (p[v] - p[w]).norm();
-        shortest[v] = std::min(shortest[v], length);
-        shortest[w] = std::min(shortest[w], length);
-      }
     }
+    const double on_surface = kHoldOnSurface * deviation_.mean() + kLeastHold * unseen_ * unseen_;
     std::vector<Mat3> freedom;
     for (Index v = 0; v < system_.size(); ++v) {
       const Mat3 along = places_.normal(v) * places_.normal(v).transpose();
-      const double on_surface = kHoldOnSurface * square + kLeastHold * area[v];
       const double hold = std::max(kHold * area[v], std::numeric_limits<double>::min());
       system_.add(v, v, hold * along + on_surface * (Mat3::Identity() - along));
       freedom.push_back(places_.freedom(v));
     }
     system_.restrict_to(freedom);
     std::vector<Vec3> moves = system_.solve();
-    for (Index v = 0; v < system_.size(); ++v) {
-      const double length = moves[v].norm();
-      const double longest = kLongestMove * shortest[v];
-      if (!(length >= kShortestMove * shortest[v]) || !std::isfinite(length)) moves[v].setZero();
-      if (length > longest) moves[v] *= longest / length;
-    }
+    limit(moves);
     return moves;
+  }
+
+  /// Shortens moves that are too long for one round, and leaves out those that are not worth it.
+  void limit(std::vector<Vec3>& moves) const {
+    const std::vector<Vec3>& p = places_.positions();
+    std::vector<double> shortest(p.size(), std::numeric_limits<double>::infinity());
+    std::vector<double> nearing(p.size(), 0.0);  // share of the way to a neighbour
+    for (const auto& [a, b, c] : triangles_) {
+      for (const auto& [v, w] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}}) {
+        const Vec3 way = p[w] - p[v];
+        const double square = way.squaredNorm();
+        for (const Index end : {v, w}) shortest[end] = std::min(shortest[end], std::sqrt(square));
+        if (!(square > 0)) continue;
+        nearing[v] = std::max(nearing[v], moves[v].dot(way) / square);
+        nearing[w] = std::max(nearing[w], -moves[w].dot(way) / square);
+      }
+    }
+    for (Index v = 0; v < system_.size(); ++v) {
+      const Vec3& normal = places_.normal(v);
+      const double up = moves[v].dot(normal);
+      if (std::abs(up) < kShortestMove * shortest[v]) moves[v] -= up * normal;
+      const double length = moves[v].norm();
+      const double excess = std::max(nearing[v], std::abs(up) / shortest[v]) / kLongestMove;
+      if (!(length >= kShortestMove * shortest[v]) || !std::isfinite(excess)) {
+        moves[v].setZero();
+      } else if (excess > 1) {
+        moves[v] /= excess;
+      }
+    }
   }
 
   const QuadMesh& quads_;
   const PrincipalField* field_;
+  double unseen_;  ///< length
   SurfaceDistance surface_;
   VertexPlaces places_;
   Deviation deviation_;

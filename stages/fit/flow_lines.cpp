@@ -13,11 +13,18 @@ namespace {
 
 /// Corners above this are the straight side of a T-joint.
 constexpr double kJointAngle = 150 * std::numbers::pi / 180;
-/// What it costs to leave the field's direction, to bend, and to leave the share of the way between
-/// neighbours that lines were traced with; for the same angle.
+/// What it costs to leave the field's direction, to bend, and to leave the middle between
+/// neighbours; for the same angle.
 constexpr double kAlong = 100;
 constexpr double kStraight = 10;
-constexpr double kEven = 10;
+constexpr double kEven = 15;
+/// T-joints that are corners of quads bend out of them where directions mean little, to an angle of
+/// 140 degrees: by this share of the way between their neighbours, and at this cost.
+constexpr double kBend = 0.18;
+constexpr double kBent = 100;
+/// Directions mean little where turning a line moves it by less than this off the surface, in root
+/// mean squares of the distance.
+constexpr double kNoticed = 3;
 /// Edges steeper than this against the surface have no direction on it.
 constexpr double kLeastTangential = 0.3;
 
@@ -94,12 +101,6 @@ std::vector<Index> FlowLines::corners_around(const std::vector<Index>& twin, Ind
   return corners;
 }
 
-FlowLines::Through FlowLines::line_through(Index before, Index vertex, Index after) const {
-  const double back = (mesh_.positions[vertex] - mesh_.positions[before]).norm();
-  const double ahead = (mesh_.positions[after] - mesh_.positions[vertex]).norm();
-  return {before, vertex, after, back + ahead > 0 ? back / (back + ahead) : 0.5};
-}
-
 void FlowLines::follow_lines(Index vertex, const std::vector<Index>& around) {
   std::vector<Index> ends;
   for (const Index c : around) {
@@ -107,20 +108,22 @@ void FlowLines::follow_lines(Index vertex, const std::vector<Index>& around) {
     ends.push_back(mesh_.corners[c + 1 == mesh_.offsets[f + 1] ? mesh_.offsets[f] : c + 1]);
   }
   if (ends.size() == 4) {
-    through_.push_back(line_through(ends[0], vertex, ends[2]));
-    through_.push_back(line_through(ends[1], vertex, ends[3]));
+    through_.push_back({ends[0], vertex, ends[2]});
+    through_.push_back({ends[1], vertex, ends[3]});
     return;
   }
   if (ends.size() != 3) return;
   for (int i = 0; i < 3; ++i) {
-    const Through line = line_through(ends[(i + 1) % 3], vertex, ends[i]);
+    Through line{ends[(i + 1) % 3], vertex, ends[i]};
     const Vec3& p = mesh_.positions[vertex];
     if (angle_between(mesh_.positions[line.before] - p, mesh_.positions[line.after] - p) <
         kJointAngle) {
       continue;
     }
+    const Index face = face_of_[around[i]];
+    line.is_quad_corner = mesh_.face(face).size() == 4;
     through_.push_back(line);
-    if (mesh_.face(face_of_[around[i]]).size() > 3) joints_.push_back({face_of_[around[i]], line});
+    if (mesh_.face(face).size() > 3) joints_.push_back({face, line});
     return;
   }
 }
@@ -145,17 +148,37 @@ std::vector<std::vector<Index>> FlowLines::neighbours() const {
   return rows;
 }
 
+/// How much directions matter for a line through a vertex, from 0 to 1: by how far the surface
+/// leaves a line between the neighbours more in one direction than in the other.
+double FlowLines::importance(const VertexPlaces& places, const PrincipalField& field,
+                             const Through& line, double square) const {
+  const std::vector<Vec3>& p = places.positions();
+  const double sag =
+      places.anisotropy(field, line.vertex) * (p[line.after] - p[line.before]).squaredNorm() / 8;
+  const double unnoticed = kNoticed * std::sqrt(square);
+  return sag + unnoticed > 0 ? sag / (sag + unnoticed) : 1.0;
+}
+
 std::vector<DirectionTerm> FlowLines::terms(const VertexPlaces& places, const PrincipalField* field,
                                             double square) const {
   std::vector<DirectionTerm> terms;
   const std::vector<Vec3>& p = places.positions();
-  for (const auto& [before, vertex, after, share] : through_) {
+  std::vector<double> freedom(p.size(), 0.0);  // of edges of a T-joint to leave the field
+  std::vector<std::array<Index, 2>> beside(p.size(), {kNone, kNone});
+  for (const Through& line : through_) {
+    const auto& [before, vertex, after, is_quad_corner] = line;
     const Vec3 way = p[after] - p[before];
-    DirectionTerm term{{vertex, before, after}, {-1, 1 - share, share}};
-    const Vec3 off = (1 - share) * p[before] + share * p[after] - p[vertex];
+    DirectionTerm term{{vertex, before, after}, {-1, 0.5, 0.5}};
+    const Vec3 off = 0.5 * (p[before] + p[after]) - p[vertex];
     term.side = places.normal(vertex).cross(way).normalized();
     term.residual = term.side.dot(off);
     term.weight = kStraight * square;
+    if (is_quad_corner && field != nullptr) {
+      freedom[vertex] = 1 - importance(places, *field, line, square);
+      beside[vertex] = {before, after};
+      term.residual -= freedom[vertex] * kBend * way.norm();
+      term.weight += freedom[vertex] * kBent * square;
+    }
     terms.push_back(term);
     term.side = term.side.cross(places.normal(vertex));
     term.residual = term.side.dot(off);
@@ -166,9 +189,13 @@ std::vector<DirectionTerm> FlowLines::terms(const VertexPlaces& places, const Pr
   std::vector<Vec3> arms;
   for (Index v = 0; v < mesh_.vertex_count(); ++v) arms.push_back(places.cross_arm(*field, v));
   for (const auto& edge : edges_) {
+    double bound = 1;
+    for (int i = 0; i < 2; ++i) {
+      if (std::ranges::count(beside[edge[i]], edge[1 - i]) > 0) bound *= 1 - freedom[edge[i]];
+    }
     for (const Index v : edge) {
       if (places.is_free(v)) {
-        terms.push_back(along_cross(places, arms[v], edge, v, square / 2));
+        terms.push_back(along_cross(places, arms[v], edge, v, bound * square / 2));
       } else if (places.is_on_line(v)) {
         terms.push_back(across_line(places, places.line_tangent(v), edge, square / 2));
       }

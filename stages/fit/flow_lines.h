@@ -21,8 +21,9 @@ struct DirectionTerm {
 };
 
 /// The lines that the edges of a result form, and where they want to go: straight on through every
-/// vertex where they can be followed, at the pace they had when traced, along the arms of the cross
-/// field, and at a right angle off feature and boundary lines.
+/// vertex where they can be followed, in even steps, along the arms of the cross field, and at a
+/// right angle off feature and boundary lines. A T-joint that is a corner of a quad bends out of it
+/// where directions mean little.
 class FlowLines {
  public:
   explicit FlowLines(const PolyMesh& mesh);
@@ -46,7 +47,7 @@ class FlowLines {
     Index before;
     Index vertex;
     Index after;
-    double share;  ///< of its length that lies before the vertex, to begin with
+    bool is_quad_corner = false;  ///< whether it is the straight corner of a quad
   };
   struct Joint {
     Index face;     ///< whose straight corner it is
@@ -55,7 +56,8 @@ class FlowLines {
 
   [[nodiscard]] std::vector<Index> corners_around(const std::vector<Index>& twin,
                                                   Index first) const;
-  [[nodiscard]] Through line_through(Index before, Index vertex, Index after) const;
+  [[nodiscard]] double importance(const VertexPlaces& places, const PrincipalField& field,
+                                  const Through& line, double square) const;
   void follow_lines(Index vertex, const std::vector<Index>& around);
 
   const PolyMesh& mesh_;

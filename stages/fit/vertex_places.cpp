@@ -184,6 +184,15 @@ void VertexPlaces::update_feet() {
   });
 }
 
+double VertexPlaces::anisotropy(const PrincipalField& field, Index v) const {
+  double sum = 0;
+  for (int i = 0; i < 3; ++i) {
+    const Index w = mesh_.face_wedges[foot_face_[v]][i];
+    sum += foot_[v][i] * std::abs(field.k_max[w] - field.k_min[w]);
+  }
+  return sum;
+}
+
 std::vector<VertexPlaces::State> VertexPlaces::states() const {
   std::vector<State> states;
   for (std::size_t v = 0; v < positions_.size(); ++v) states.push_back({positions_[v], lines_[v]});

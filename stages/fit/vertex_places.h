@@ -34,6 +34,8 @@ class VertexPlaces {
   [[nodiscard]] Vec3 line_tangent(Index v) const { return tangent(lines_[v]); }
   /// One arm of the field's cross at the vertex's foot; zero where it cancels.
   [[nodiscard]] Vec3 cross_arm(const PrincipalField& field, Index v) const;
+  /// |k_max - k_min| at the vertex's foot, 1/length.
+  [[nodiscard]] double anisotropy(const PrincipalField& field, Index v) const;
   /// Projects onto the directions in which the vertex may move: rank 3, 1 or 0.
   [[nodiscard]] Mat3 freedom(Index v) const;
 

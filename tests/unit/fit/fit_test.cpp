@@ -217,17 +217,117 @@ TEST(Fit, TurnsWithTheModel) {
   }
 }
 
-// Moves of the size of rounding would only spoil faces that lie exactly in a plane.
-TEST(Fit, LeavesAResultInThePlaneAlone) {
+// What lies in a plane may be spread out there, but stays in it.
+TEST(Fit, KeepsAResultInThePlane) {
   SampleOptions options;
   options.faces = 5000;
-  const Mat3 rotation = support::oblique_rotation();
-  const TriMesh mesh = support::plain_tri_mesh(
-      support::transformed(make_sample(SampleKind::plane, options), rotation));
+  const PolyMesh fine = make_sample(SampleKind::plane, options);
   options.faces = 500;
-  const QuadMesh quads =
-      placed_on(mesh, support::transformed(make_sample(SampleKind::plane, options), rotation));
-  EXPECT_EQ(fitted(mesh, quads).mesh.positions, quads.mesh.positions);
+  const PolyMesh coarse = make_sample(SampleKind::plane, options);
+  const TriMesh level = support::plain_tri_mesh(fine);
+  const QuadMesh flat = fitted(level, placed_on(level, coarse));
+  for (const Vec3& p : flat.mesh.positions) EXPECT_EQ(p.z(), coarse.positions[0].z());
+  const Mat3 rotation = support::oblique_rotation();
+  const TriMesh oblique = support::plain_tri_mesh(support::transformed(fine, rotation));
+  const QuadMesh turned =
+      fitted(oblique, placed_on(oblique, support::transformed(coarse, rotation)));
+  for (const Vec3& p : turned.mesh.positions) {
+    EXPECT_NEAR((rotation.transpose() * p).z(), coarse.positions[0].z(), 1e-12);
+  }
+}
+
+/// Points of the rectangle [0, width] x [0, 1] on a plane, or on a cylinder around an axis along x.
+struct Sheet {
+  double width;
+  double curvature;
+
+  [[nodiscard]] Vec3 at(double x, double y) const {
+    if (curvature == 0) return {x, y, 0};
+    return {x, std::sin(curvature * y) / curvature, std::cos(curvature * y) / curvature};
+  }
+  /// A grid of quads with lines at the shares `x` of the width and `y` of the height.
+  [[nodiscard]] PolyMesh grid(const std::vector<double>& x, const std::vector<double>& y) const {
+    PolyMesh mesh;
+    const auto n = static_cast<Index>(x.size());
+    for (std::size_t j = 0; j < y.size(); ++j) {
+      for (const double share : x) mesh.positions.push_back(at(width * share, y[j]));
+    }
+    for (Index j = 0; j + 1 < static_cast<Index>(y.size()); ++j) {
+      for (Index i = 0; i + 1 < n; ++i) {
+        const Index v = j * n + i;
+        mesh.add_face(std::vector<Index>{v, v + 1, v + n + 1, v + n});
+      }
+    }
+    return mesh;
+  }
+  /// What is remeshed.
+  [[nodiscard]] support::Prepared surface() const {
+    std::vector<double> shares;
+    for (int i = 0; i <= 60; ++i) shares.push_back(i / 60.0);
+    return support::prepare(grid(shares, shares));
+  }
+};
+
+QuadMesh fitted_with_field(const support::Prepared& surface, const QuadMesh& quads) {
+  SilentObserver observer;
+  return fit_vertices(surface.mesh, &surface.field, quads, {}, observer).quads;
+}
+
+// Lines keep half to whole distances between them when they are traced.
+TEST(Fit, SpacesLinesEvenlyWhereItIsFlat) {
+  const Sheet sheet{1, 0};
+  const support::Prepared surface = sheet.surface();
+  const std::vector<double> lines = {0, 0.05, 0.15, 0.2, 0.3, 0.4, 0.45, 0.55, 0.6, 0.7, 0.8, 1};
+  const QuadMesh result =
+      fitted_with_field(surface, placed_on(surface.mesh, sheet.grid(lines, lines)));
+  double longest = 0;
+  double shortest = 1;
+  for (Index f = 0; f < result.mesh.face_count(); ++f) {
+    const std::span<const Index> face = result.mesh.face(f);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double length =
+          (result.mesh.positions[face[(i + 1) % 4]] - result.mesh.positions[face[i]]).norm();
+      longest = std::max(longest, length);
+      shortest = std::min(shortest, length);
+    }
+  }
+  EXPECT_LT(longest, 1.35 * shortest);  // 3.2 times before
+}
+
+/// The angle, degrees, at a T-joint that is a corner of a quad, after the fit: two quads at its
+/// left, a quad in the shape of a triangle at its right.
+double angle_at_joint(const Sheet& sheet) {
+  PolyMesh mesh;
+  for (const auto& [x, y] : {std::pair{0.0, 0.0},
+                             {0.0, 0.5},
+                             {0.0, 1.0},
+                             {1.0, 0.0},
+                             {1.0, 0.5},
+                             {1.0, 1.0},
+                             {2.0, 0.5},
+                             {3.0, 0.0},
+                             {3.0, 1.0}}) {
+    mesh.positions.push_back(sheet.at(x, y));
+  }
+  mesh.add_face(std::vector<Index>{0, 3, 4, 1});
+  mesh.add_face(std::vector<Index>{1, 4, 5, 2});
+  mesh.add_face(std::vector<Index>{3, 6, 5, 4});
+  mesh.add_face(std::vector<Index>{3, 7, 6});
+  mesh.add_face(std::vector<Index>{7, 8, 6});
+  mesh.add_face(std::vector<Index>{6, 8, 5});
+  const support::Prepared surface = sheet.surface();
+  const std::vector<Vec3> p =
+      fitted_with_field(surface, placed_on(surface.mesh, mesh)).mesh.positions;
+  const Vec3 below = p[3] - p[4];
+  const Vec3 above = p[5] - p[4];
+  return std::atan2(below.cross(above).norm(), below.dot(above)) * 180 / M_PI;
+}
+
+TEST(Fit, BendsTJointsOutOfQuadsWhereDirectionsMeanLittle) {
+  const double flat = angle_at_joint({3, 0});
+  EXPECT_LT(flat, 160);
+  EXPECT_GT(flat, 130);
+  EXPECT_GT(angle_at_joint({3, 0.2}), 170);  // across a cylinder, so much finer than it is bent
 }
 
 TEST(Fit, NoRoundsChangeNothing) {
