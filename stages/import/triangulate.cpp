@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <optional>
@@ -87,25 +88,44 @@ class TakenEdges {
   std::vector<Slot> slots_;
 };
 
-/// Whether to cut a quad between its corners 0 and 2 rather than 1 and 3.
+/// Triangles of a quad that are flatter than this, or turned over, are avoided.
+constexpr double kLeastShape = 0.01;
+
+/// Whether to cut a quad between its corners 0 and 2 rather than 1 and 3: along the shorter
+/// diagonal where both will do, as faces of results are measured and drawn.
 bool cut_from_first_corner(const std::vector<Vec3>& positions, std::span<const Index> quad,
                            const TakenEdges& taken) {
   const bool first_free = taken.is_free(quad[0], quad[2], quad);
   const bool second_free = taken.is_free(quad[1], quad[3], quad);
   if (first_free != second_free) return first_free;
   const Vec3 normal = newell_normal(positions, quad);
+  const auto at = [&](int k) -> const Vec3& { return positions[quad[k % 4]]; };
   const auto worst = [&](int i) {
-    const auto at = [&](int k) -> const Vec3& { return positions[quad[(i + k) % 4]]; };
-    return std::min(shape(at(0), at(1), at(2), normal), shape(at(0), at(2), at(3), normal));
+    return std::min(shape(at(i), at(i + 1), at(i + 2), normal),
+                    shape(at(i), at(i + 2), at(i + 3), normal));
   };
   constexpr double kTie = 1e-6;
-  const double difference = worst(0) - worst(1);
-  if (std::abs(difference) > kTie) return difference > 0;
+  const std::array<double, 2> shapes = {worst(0), worst(1)};
+  if (std::min(shapes[0], shapes[1]) < kLeastShape) {
+    if (std::abs(shapes[0] - shapes[1]) > kTie) return shapes[0] > shapes[1];
+  } else {
+    const double first = (at(2) - at(0)).squaredNorm();
+    const double second = (at(3) - at(1)).squaredNorm();
+    if (std::abs(first - second) > kTie * std::max(first, second)) return first < second;
+  }
   // The same cut for equal quads that begin elsewhere or are turned over.
   return std::min(quad[0], quad[2]) < std::min(quad[1], quad[3]);
 }
 
-/// Cuts ears off one polygon, in two dimensions.
+double smallest_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const auto at = [](const Vec3& apex, const Vec3& p, const Vec3& q) {
+    return std::atan2((p - apex).cross(q - apex).norm(), (p - apex).dot(q - apex));
+  };
+  return std::min({at(a, b, c), at(b, c, a), at(c, a, b)});
+}
+
+/// Cuts ears off one polygon, in two dimensions, the one with the largest least angle in space
+/// first.
 class EarClipper {
  public:
   EarClipper(const std::vector<Vec3>& positions, std::span<const Index> polygon)
@@ -116,6 +136,7 @@ class EarClipper {
     const Vec3& base = positions[polygon[0]];
     for (int i = 0; i < count_; ++i) {
       const Vec3 p = positions[polygon[i]] - base;
+      places_.push_back(p);
       points_.emplace_back(p.dot(x), p.dot(y));
       next_.push_back((i + 1) % count_);
       previous_.push_back((i + count_ - 1) % count_);
@@ -143,11 +164,11 @@ class EarClipper {
 
  private:
   struct Candidate {
-    double shape;
+    double angle;  ///< of the ear, the least; -1 where the corner is none
     int corner;
     int version;
     bool operator<(const Candidate& other) const {
-      return shape != other.shape ? shape < other.shape : corner > other.corner;
+      return angle != other.angle ? angle < other.angle : corner > other.corner;
     }
   };
 
@@ -175,13 +196,18 @@ class EarClipper {
     });
   }
 
-  void push(int i) { candidates_.push({ear_shape(i), i, ++version_[i]}); }
+  void push(int i) {
+    const double angle = ear_shape(i) > 0
+                             ? smallest_angle(places_[previous_[i]], places_[i], places_[next_[i]])
+                             : -1.0;
+    candidates_.push({angle, i, ++version_[i]});
+  }
 
-  /// The best-shaped ear; where no corner is an ear (the outline crosses itself), the corner that
+  /// The best ear; where no corner is an ear (the outline crosses itself), the corner that
   /// comes closest to one. Ears found blocked are not looked at again until nothing else is left.
   int next_ear() {
     while (true) {
-      while (!candidates_.empty() && candidates_.top().shape > 0) {
+      while (!candidates_.empty() && candidates_.top().angle >= 0) {
         const Candidate best = candidates_.top();
         candidates_.pop();
         if (next_[best.corner] < 0 || best.version != version_[best.corner]) continue;
@@ -224,6 +250,7 @@ class EarClipper {
   }
 
   int count_;
+  std::vector<Vec3> places_;
   std::vector<Vec2> points_;
   std::vector<int> next_;  ///< -1 once cut off
   std::vector<int> previous_;

@@ -8,8 +8,8 @@ Suites:
   default  every manifold model of scan, cad, genus and open, with strake's defaults: the same
            topology, an oriented manifold, at most 5 sides, few concave faces
   tenth    the same with a tenth of the input's vertices wanted, which must be met within 10 %
-  tolerance  models of up to 3600 vertices with a tolerance of 0.3 %: the same topology, and no place
-           farther off
+  tolerance  models of up to 3600 vertices, also of polygons, with a tolerance of 0.3 %: the same
+           topology, and no place farther off
   quality  quads and distance at five published settings
   dirty    every broken file: a sound result, or a refusal that says why; never a crash
   all      every file of the collection with strake's defaults, within 120 s and 2 GB; --table FILE
@@ -252,10 +252,12 @@ def cases_of(suite, folder):
         listed = {model.path: model for model in models.read_manifest(folder)}
         return dirty + [Case(path, model=listed.get(path)) for category in ALL_CLEAN
                         for path in sorted((folder / category).iterdir()) if path.is_file()]
-    sound = [model for model in models.read_manifest(folder) if model.category in CATEGORIES]
+    listed = models.read_manifest(folder)
     if suite == "tolerance":
-        return [Case(model.path, model=model) for model in sound
-                if model.vertices <= MOST_VERTICES_WITH_TOLERANCE]
+        return [Case(model.path, model=model) for model in listed
+                if model.category in (*CATEGORIES, "poly")
+                and model.vertices <= MOST_VERTICES_WITH_TOLERANCE]
+    sound = [model for model in listed if model.category in CATEGORIES]
     return [Case(model.path, model.vertices // 10 if suite == "tenth" else 0, model=model)
             for model in sound]
 

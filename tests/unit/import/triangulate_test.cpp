@@ -7,6 +7,7 @@
 #include <random>
 #include <set>
 
+#include "common/geometry/poly_topology/face_shape.h"
 #include "tests/unit/import/shapes.h"
 
 namespace strake::import {
@@ -51,12 +52,24 @@ TEST(Triangulate, ConcaveQuadIsCutAtItsReflexCorner) {
   for (const double area : signed_areas(soup)) EXPECT_GT(area, 0);
 }
 
-TEST(Triangulate, QuadTakesTheLargerLeastAngle) {
-  const Soup soup = cut({Vec3(0, 0, 0), Vec3(2, -1, 0), Vec3(4, 0, 0), Vec3(2, 1, 0)});
-  for (const Triangle& face : soup.faces) {
-    EXPECT_TRUE(std::count(face.begin(), face.end(), 1) == 1 &&
-                std::count(face.begin(), face.end(), 3) == 1);
-  }
+/// Whether a quad is cut between its corners 1 and 3.
+bool is_cut_from_second_corner(const std::vector<Vec3>& quad) {
+  return std::ranges::all_of(cut(quad).faces, [](const Triangle& face) {
+    return std::ranges::count(face, 1) == 1 && std::ranges::count(face, 3) == 1;
+  });
+}
+
+TEST(Triangulate, QuadTakesTheShorterDiagonal) {
+  EXPECT_TRUE(
+      is_cut_from_second_corner({Vec3(0, 0, 0), Vec3(2, -1, 0), Vec3(4, 0, 0), Vec3(2, 1, 0)}));
+  // Bent, so that the diagonal decides about the surface; the flattest triangle is this cut's.
+  EXPECT_TRUE(is_cut_from_second_corner(
+      {Vec3(-0.5, -0.2, 0), Vec3(2.5, 0.3, 0.3), Vec3(1.9, 1.5, 0), Vec3(0.2, 1.6, 0.3)}));
+}
+
+TEST(Triangulate, QuadWithAStraightCornerIsCutThere) {
+  EXPECT_TRUE(
+      is_cut_from_second_corner({Vec3(0, 0, 0), Vec3(1, -1e-9, 0), Vec3(2, 0, 0), Vec3(1, 3, 0)}));
 }
 
 TEST(Triangulate, StarKeepsItsAreaWithoutFoldedTriangles) {
@@ -90,6 +103,31 @@ TEST(Triangulate, AnyOutlineGivesADisk) {
       corners.emplace_back(uniform(random), uniform(random), trial % 2 == 0 ? 0 : uniform(random));
     }
     expect_disk(cut(corners), n);
+  }
+}
+
+// So a mesh of polygons is the same surface for whoever measures its distance to the result.
+TEST(Triangulate, CutsAsFacesOfResultsAreMeasured) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int trial = 0; trial < 300; ++trial) {
+    const Index n = 4 + trial % 6;
+    std::vector<Vec3> corners;
+    for (Index i = 0; i < n; ++i) {
+      const double angle = 2 * std::numbers::pi * i / n;
+      corners.emplace_back((1 + 0.3 * uniform(random)) * std::cos(angle),
+                           (1 + 0.3 * uniform(random)) * std::sin(angle), 0.2 * uniform(random));
+    }
+    std::vector<Index> face(corners.size());
+    std::iota(face.begin(), face.end(), 0);
+    std::vector<Triangle> measured;
+    triangulate_face(corners, face, measured);
+    std::vector<Triangle> own = cut(corners).faces;
+    for (auto* triangles : {&own, &measured}) {
+      for (Triangle& triangle : *triangles) std::ranges::sort(triangle);
+      std::ranges::sort(*triangles);
+    }
+    EXPECT_EQ(own, measured) << trial;
   }
 }
 
