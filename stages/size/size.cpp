@@ -18,6 +18,8 @@ constexpr double kLargestShrink = 0.6;
 constexpr double kLargestGrowth = 1.25;
 /// Times that cells take the mean of themselves and their neighbours.
 constexpr int kAveraging = 3;
+/// A cell whose error is more times that of its surroundings asks for closer lines by itself.
+constexpr double kOutlier = 3;
 /// Share of a cell's bending that one direction has at least and at most.
 constexpr double kLeastShare = 0.2;
 constexpr double kSmallestError = 1e-7;  ///< share of the diagonal
@@ -65,7 +67,11 @@ Averaged averaged_errors(const PolyMesh& faces, const ErrorMap& errors, double d
     result.bend.push_back(cell.bend);
   }
   const std::vector<std::array<Index, 2>> neighbours = neighbour_cells(faces);
+  const std::vector<double> own = result.log_error;
   average(neighbours, result.log_error);
+  for (std::size_t f = 0; f < own.size(); ++f) {
+    result.log_error[f] = std::max(result.log_error[f], own[f] - std::log(kOutlier));
+  }
   average(neighbours, result.bend);
   return result;
 }

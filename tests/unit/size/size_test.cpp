@@ -77,6 +77,27 @@ TEST(Size, ShrinksWhereTheErrorIsAboveTheMeanAndGrowsWhereBelow) {
   }
 }
 
+/// A cell that is far worse than all around it is no chance.
+TEST(Size, ShrinksAtASingleCellThatIsFarOff) {
+  const auto is_inside = [](double x, double y) {
+    return std::abs(x - 0.5625) < 0.0625 && std::abs(y - 0.5625) < 0.0625;
+  };
+  const Case c = grid(64, 8, [&](double x, double y) {
+    const double bump = std::sin(8 * M_PI * x) * std::sin(8 * M_PI * y);
+    return (is_inside(x, y) ? 0.03 : 0.0005) * bump * bump;
+  });
+  const SizeField size = sizes(c);
+  for (Index w = 0; w < c.mesh.wedge_count(); ++w) {
+    const Vec3& p = c.mesh.positions[c.mesh.wedge_vertex[w]];
+    if (is_inside(p.x(), p.y())) {
+      EXPECT_LT(size.along[w], 0.7 * kUsed) << p.transpose();
+    }
+    if ((p - Vec3(0.5625, 0.5625, 0)).norm() > 0.4) {
+      EXPECT_GT(size.along[w], kUsed) << p.transpose();
+    }
+  }
+}
+
 /// Lines across x are too far apart, lines along x are not.
 TEST(Size, ShrinksTheDirectionThatBends) {
   const Case c = bent_more_on_the_right();
