@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "common/geometry/angles.h"
 #include "common/geometry/frames.h"
 
 namespace strake {
@@ -16,7 +17,7 @@ double corner_angle(const TriMesh& mesh, Index h) {
   const Vec3& p = mesh.positions[mesh.from(h)];
   const Vec3 a = mesh.positions[mesh.to(h)] - p;
   const Vec3 b = mesh.positions[mesh.from(TriMesh::prev(h))] - p;
-  return std::atan2(a.cross(b).norm(), a.dot(b));
+  return angle_between(a, b);
 }
 
 bool has_own_normal(const TriMesh& mesh, Index face) {

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string>
 
+#include "common/geometry/angles.h"
 #include "stages/evaluate/statistics.h"
 
 namespace strake::evaluation {
@@ -33,7 +34,7 @@ void in_batches(std::int64_t n, const char* phase, Observer& observer, const Bod
 }
 
 double degrees_between(const Vec3& a, const Vec3& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
+  return angle_between(a, b) * 180 / std::numbers::pi;
 }
 
 /// The angle between a sample's normal and the surface's at the sample's foot.

@@ -9,6 +9,7 @@
 #include <set>
 #include <vector>
 
+#include "common/geometry/angles.h"
 #include "common/geometry/face_crossings/box_tree.h"
 #include "common/geometry/face_crossings/face_crossings.h"
 #include "common/geometry/poly_topology/face_shape.h"
@@ -120,7 +121,7 @@ class Division {
     for (std::size_t i = 0; i < n; ++i) {
       const Vec3 ahead = p[part[(i + 1) % n]] - p[part[i]];
       const Vec3 back = p[part[(i + n - 1) % n]] - p[part[i]];
-      if (std::atan2(ahead.cross(back).norm(), ahead.dot(back)) < kLeastAngle) return false;
+      if (angle_between(ahead, back) < kLeastAngle) return false;
     }
     return true;
   }

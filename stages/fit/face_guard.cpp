@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/geometry/angles.h"
 #include "common/geometry/face_crossings/face_crossings.h"
 
 namespace strake::fitting {
@@ -47,8 +48,7 @@ FaceGuard::Form FaceGuard::form(const VertexPlaces& places, Index face) const {
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vec3 ahead = p[corners[(i + 1) % corners.size()]] - p[corners[i]];
     const Vec3 back = p[corners[(i + corners.size() - 1) % corners.size()]] - p[corners[i]];
-    form.least_angle =
-        std::min(form.least_angle, std::atan2(ahead.cross(back).norm(), ahead.dot(back)));
+    form.least_angle = std::min(form.least_angle, angle_between(ahead, back));
     outward += places.normal(corners[i]);
   }
   form.faces_away = newell_normal(p, corners).dot(outward) < 0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/geometry/angles.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_edges.h"
 
@@ -27,10 +28,6 @@ constexpr double kBent = 100;
 constexpr double kNoticed = 3;
 /// Edges steeper than this against the surface have no direction on it.
 constexpr double kLeastTangential = 0.3;
-
-double angle_between(const Vec3& a, const Vec3& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 /// The wish of an edge to have no part along one of two directions, if that part is the smaller
 /// one: none where both are as large, so that diagonals of a cross stay what they are.

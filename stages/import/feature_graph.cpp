@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/geometry/angles.h"
+
 namespace strake::import {
 namespace {
 
@@ -16,10 +18,6 @@ constexpr double kRaggedBoundary =
     10;  ///< the same where single edges turn by 40 degrees on average
 constexpr double kLoopShare = 1.0 / 12;  ///< largest window on a closed line
 constexpr double kSmallestHole = 0.04;   ///< of the diagonal: length of a boundary with corners
-
-double angle_between(const Vec3& a, const Vec3& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 /// A maximal run of feature or boundary edges through vertices where just two of them meet.
 struct Line {

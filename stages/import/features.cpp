@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "common/geometry/angles.h"
 #include "stages/import/attribute_borders.h"
 #include "stages/import/face_normals.h"
 #include "stages/import/feature_graph.h"
@@ -16,10 +17,6 @@ namespace strake::import {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-
-double angle_between(const Vec3& a, const Vec3& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 /// Angle by which the surface is bent at each half-edge's edge; 0 on the boundary.
 std::vector<float> bend_angles(const TriMesh& mesh) {

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "common/geometry/angles.h"
+
 namespace strake::import {
 namespace {
 
@@ -115,13 +117,6 @@ bool cut_from_first_corner(const std::vector<Vec3>& positions, std::span<const I
   }
   // The same cut for equal quads that begin elsewhere or are turned over.
   return std::min(quad[0], quad[2]) < std::min(quad[1], quad[3]);
-}
-
-double smallest_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const auto at = [](const Vec3& apex, const Vec3& p, const Vec3& q) {
-    return std::atan2((p - apex).cross(q - apex).norm(), (p - apex).dot(q - apex));
-  };
-  return std::min({at(a, b, c), at(b, c, a), at(c, a, b)});
 }
 
 /// Cuts ears off one polygon, in two dimensions, the one with the largest least angle in space

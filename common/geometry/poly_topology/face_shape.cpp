@@ -4,21 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/geometry/angles.h"
+
 namespace strake {
 namespace {
 
 constexpr double kConcaveTolerance = 1e-9;
 constexpr std::size_t kLargePolygon = 256;
-
-double angle_at(const Vec3& apex, const Vec3& p, const Vec3& q) {
-  const Vec3 a = p - apex;
-  const Vec3 b = q - apex;
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
-double smallest_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
-  return std::min({angle_at(a, b, c), angle_at(b, c, a), angle_at(c, a, b)});
-}
 
 /// Cuts ears off one polygon.
 class EarCutter {
