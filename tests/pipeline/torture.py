@@ -71,6 +71,9 @@ class Place:
                         file.read_bytes()
         return found
 
+    def count_finished(self):
+        return len([*self.store.glob("*/*/manifest.json")])
+
     def outputs(self):
         # A kill while an output is copied leaves a hidden file beside it.
         return {file.name: file.read_bytes() for file in (self.folder / "out").iterdir()
@@ -125,6 +128,7 @@ def check_nothing_left(what):
 
 
 def reference_of(programs, folder):
+    """Entries and outputs of an undisturbed run."""
     place = Place(programs, folder / "reference")
     place.must_run()
     entries = place.entries()
@@ -132,15 +136,24 @@ def reference_of(programs, folder):
     return entries, place.outputs()
 
 
+def seconds_of_a_run(programs, folder):
+    """On this machine, as it is loaded now: moments are chosen within it, so that they hit a run."""
+    place = Place(programs, folder / "timed")
+    begin = time.monotonic()
+    place.must_run("--jobs", "2")
+    return time.monotonic() - begin
+
+
 def kills(programs, folder):
     """kill -9 at random moments, of the run, Ninja, a step or a stage."""
     reference, outputs = reference_of(programs, folder)
+    whole = seconds_of_a_run(programs, folder)
     place = Place(programs, folder / "here")
     choice = random.Random(SEED)
     counts, interrupted, wanted = {}, 0, 50
     for _ in range(wanted):
         run = place.start("run", "--jobs", "2")
-        time.sleep(choice.uniform(0.0, 0.35))
+        time.sleep(choice.uniform(0.0, 0.5) * whole)
         running = processes()
         kinds = [kind(words) for words in running.values()]
         target = choice.choice(["run", "ninja", "step", "stage", "stage"])
@@ -171,12 +184,13 @@ def kills(programs, folder):
 def interrupts(programs, folder):
     """Ctrl-C, and SIGTERM to the run alone, at random moments."""
     reference, outputs = reference_of(programs, folder)
+    whole = seconds_of_a_run(programs, folder)
     choice = random.Random(SEED)
     stopped, slowest = 0, 0.0
     for number in range(16):
         place = Place(programs, folder / f"here{number}")
         run = place.start("run", "--jobs", "2")
-        time.sleep(choice.uniform(0.02, 0.9))
+        time.sleep(choice.uniform(0.02, 0.9) * whole)
         begin = time.monotonic()
         if number % 2:
             os.kill(run.pid, signal.SIGTERM)
@@ -220,15 +234,16 @@ def together(programs, folder):
     for number, arguments in enumerate((["--unreachable"], ["--max-size", "0"])):
         place = Place(programs, folder / f"gc{number}")
         run = place.start("run")
-        sweeps = 0
+        sweeps, seen = 0, 0
         while run.poll() is None:
             # Clearing all the time would let nobody get anywhere; once in a while must do no harm.
-            if arguments[0] == "--unreachable" or sweeps < 2:
-                time.sleep(0.3 if sweeps else 0.5)
+            finished = place.count_finished()
+            if finished > seen and (arguments[0] == "--unreachable" or sweeps < 2):
                 code, said = place.call("gc", *arguments)
                 check(code == 0, said)
                 sweeps += 1
-            time.sleep(0.02)
+                seen = place.count_finished()
+            time.sleep(0.002)
         out, err = run.communicate()
         check(run.returncode == 0, err)
         check(sweeps > 1, "gc came too late")
