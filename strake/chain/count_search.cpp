@@ -16,6 +16,10 @@ double CountSearch::error(std::int64_t count) const {
   return std::abs(static_cast<double>(count) - target_) / target_;
 }
 
+bool CountSearch::is_good_enough(std::int64_t count) const {
+  return error(count) <= (static_cast<double>(count) < target_ ? kMostMissing : kMostExcess);
+}
+
 double CountSearch::excess(const Trial& trial) const {
   return std::log(std::max<double>(static_cast<double>(trial.count), 1) / target_);
 }
@@ -61,7 +65,7 @@ double CountSearch::guess() const {
 
 std::optional<double> CountSearch::next() const {
   if (trials_.empty()) return first_scale_;
-  if (trials_.size() >= kMaxTrials || error(best().count) <= kGoodEnough) return std::nullopt;
+  if (trials_.size() >= kMaxTrials || is_good_enough(best().count)) return std::nullopt;
   const double scale = std::clamp(guess(), min_scale_, max_scale_);
   for (const Trial& trial : trials_) {
     if (std::abs(std::log(trial.scale / scale)) < 1e-6) return std::nullopt;

@@ -19,9 +19,6 @@ namespace {
 
 /// Error of a wanted count above which the user is told.
 constexpr double kCountTolerance = 0.05;
-/// Share of a wanted count that may be missing; more is made up for by dividing cells, which costs
-/// quads.
-constexpr double kMissing = 0.02;
 constexpr std::int64_t kFeedbackRounds = 1;
 /// Share of the way to a density that is enough, and rounds that may be spent on it.
 constexpr double kDensityReached = 0.9;
@@ -207,7 +204,7 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
   session.keep(stages.mesh);
   session.run(stages.fit);
   const std::int64_t missing = wanted - count_of(session, "fitted", counted);
-  if (static_cast<double>(missing) > kMissing * static_cast<double>(wanted) &&
+  if (static_cast<double>(missing) > CountSearch::kMostMissing * static_cast<double>(wanted) &&
       !only_quads(stages)) {
     const std::int64_t vertices = count_of(session, "fitted", Counted::vertices) + missing;
     stages.refine.option("refine-vertices").parse_into(std::to_string(vertices));

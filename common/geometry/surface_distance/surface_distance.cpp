@@ -54,6 +54,18 @@ ClosestPoint closest_on_thin_triangle(const Vec3& p, const Vec3& a, const Vec3& 
   return best;
 }
 
+/// Share that rounding may take from the distance of a box.
+constexpr double kBoxRounding = 1e-12;
+
+/// Whether the box around a triangle is farther than a distance, which costs a fraction of looking
+/// for its nearest point.
+bool is_box_beyond(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c, double distance) {
+  const Vec3 below = a.cwiseMin(b).cwiseMin(c) - p;
+  const Vec3 above = p - a.cwiseMax(b).cwiseMax(c);
+  return below.cwiseMax(above).cwiseMax(0.0).squaredNorm() * (1 - kBoxRounding) >
+         distance * distance;
+}
+
 /// What a query carries through the hierarchy.
 struct Search {
   const SurfaceDistance* surface;
@@ -67,11 +79,14 @@ struct Search {
 bool visit_triangle(RTCPointQueryFunctionArguments* arguments) {
   auto& search = *static_cast<Search*>(arguments->userPtr);
   const auto triangle = static_cast<Index>(arguments->primID);
-  if (search.accept != nullptr && !(*search.accept)(triangle)) return false;
   const auto& corners = search.surface->triangles()[triangle];
   const auto& positions = search.surface->positions();
-  ClosestPoint found = closest_point_on_triangle(search.point, positions[corners[0]],
-                                                 positions[corners[1]], positions[corners[2]]);
+  const Vec3& a = positions[corners[0]];
+  const Vec3& b = positions[corners[1]];
+  const Vec3& c = positions[corners[2]];
+  if (is_box_beyond(search.point, a, b, c, search.best.distance)) return false;
+  if (search.accept != nullptr && !(*search.accept)(triangle)) return false;
+  ClosestPoint found = closest_point_on_triangle(search.point, a, b, c);
   found.triangle = triangle;
   const bool is_nearer = found.distance < search.best.distance ||
                          (found.distance == search.best.distance &&
