@@ -50,13 +50,8 @@ Coverage::Coverage(const TraceDomain& domain, const FaceBlocks& blocks)
 
 /// Rows of samples parallel to the longest edge, each a line distance from the next.
 void Coverage::sample_face(Index face) {
-  const TriMesh& mesh = domain_.mesh;
-  const FaceRows rows = face_rows(mesh, face);
-  double least = std::numeric_limits<double>::infinity();
-  for (const Index w : mesh.face_wedges[face]) {
-    least = std::min({least, domain_.spacing.along[w], domain_.spacing.across[w]});
-  }
-  if (rows.longest < 1.5 * least) return;
+  if (!is_large_face(domain_.mesh, domain_.spacing, face)) return;
+  const FaceRows rows = face_rows(domain_.mesh, face);
   const FieldContext context = field_context(domain_, face);
   const Vec2& a = context.chart.corner[rows.base];
   const Vec2& b = context.chart.corner[(rows.base + 1) % 3];
@@ -101,7 +96,7 @@ void Coverage::mark(const CoveredDisc& disc, BlockWalk& walk) {
     if (std::atomic_ref(open_corners_[block]).load(std::memory_order_relaxed) > 0) {
       mark_corners(block, disc);
     }
-    // Only faces as large as a block have points of their own.
+    // Only large faces have points of their own.
     if (blocks_.is_single(block)) mark_points(blocks_.faces(block).front(), disc);
   }
 }

@@ -1,5 +1,6 @@
 #include "stages/trace/face_blocks.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,8 +12,13 @@
 namespace strake {
 namespace {
 
-/// Largest radius of a block, as a share of the smallest line distance there.
-constexpr double kBlockSize = 0.5;
+/// Radius of a block, as a share of the smallest line distance there. Smaller ones hold fewer lines
+/// that are too far away, but a look around comes to more of them.
+constexpr double kBlockSize = 1.0;
+/// Length of the longest edge of a large face, likewise.
+constexpr double kLarge = 1.5;
+/// Cosine of the angle between the normals of faces of a block and of its first one, at least.
+constexpr double kLeastAgreement = 0.5;
 /// Share of the largest coordinate by which single precision may round a place, doubled.
 constexpr double kRounding = 2.5e-7;
 
@@ -27,12 +33,10 @@ double largest_coordinate(const TriMesh& mesh) {
   return largest;
 }
 
-double least_spacing(const TriMesh& mesh, const Spacing& spacing, Index face) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Index w : mesh.face_wedges[face]) {
-    least = std::min({least, spacing.along[w], spacing.across[w]});
-  }
-  return least;
+/// Normal of a face, as long as twice its area.
+Vec3 area_normal(const TriMesh& mesh, Index face) {
+  const auto& [a, b, c] = mesh.faces[face];
+  return (mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a]);
 }
 
 /// Slabs of a face hold so many line distances, and are not more than that.
@@ -42,6 +46,18 @@ constexpr double kPlaceRounding = 1e-9;
 
 }  // namespace
 
+double least_spacing(const TriMesh& mesh, const Spacing& spacing, Index face) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Index w : mesh.face_wedges[face]) {
+    least = std::min({least, spacing.along[w], spacing.across[w]});
+  }
+  return least;
+}
+
+bool is_large_face(const TriMesh& mesh, const Spacing& spacing, Index face) {
+  return face_rows(mesh, face).longest >= kLarge * least_spacing(mesh, spacing, face);
+}
+
 FaceBlocks::FaceBlocks(const TriMesh& mesh, const Spacing& spacing,
                        const std::vector<std::uint8_t>& barriers)
     : mesh_(mesh), barriers_(barriers), block_of_(mesh.face_count(), kNone) {
@@ -50,7 +66,7 @@ FaceBlocks::FaceBlocks(const TriMesh& mesh, const Spacing& spacing,
   first_face_.push_back(0);
   for (Index first = 0; first < mesh.face_count(); ++first) {
     if (block_of_[first] != kNone) continue;
-    gather(first, kBlockSize * least_spacing(mesh, spacing, first));
+    gather(first, spacing);
     balls_.push_back(ball_around(faces(count()), rounding));
   }
   find_ways();
@@ -84,21 +100,33 @@ std::pair<Index, Index> FaceBlocks::slabs(Index block, const Vec3& a, const Vec3
   return {slab_at(low - margin), slab_at(high + margin) + 1};
 }
 
-/// Appends the next block: what is connected to a face, free yet, and near to its middle.
-void FaceBlocks::gather(Index first, double size) {
+/// Appends the next block: what is connected to a face, free yet, near to its middle, and faces
+/// about the same way.
+void FaceBlocks::gather(Index first, const Spacing& spacing) {
   const Index block = count();
   const std::size_t begin = faces_.size();
+  const double size = kBlockSize * least_spacing(mesh_, spacing, first);
   const Vec3 middle = centroid(mesh_, first);
+  const Vec3 normal = area_normal(mesh_, first);
   const auto is_near = [&](Index v) {
     return (mesh_.positions[v] - middle).squaredNorm() <= size * size;
   };
+  const auto is_alike = [&](Index f) {
+    const Vec3 other = area_normal(mesh_, f);
+    return !(normal.dot(other) < kLeastAgreement * normal.norm() * other.norm());
+  };
+  const auto belongs = [&](Index f) {
+    return std::ranges::all_of(mesh_.faces[f], is_near) && is_alike(f) &&
+           !is_large_face(mesh_, spacing, f);
+  };
   block_of_[first] = block;
   faces_.push_back(first);
-  for (std::size_t at = begin; at < faces_.size(); ++at) {
+  const bool is_alone = is_large_face(mesh_, spacing, first);
+  for (std::size_t at = begin; at < faces_.size() && !is_alone; ++at) {
     for (Index h = 3 * faces_[at], i = 0; i < 3; ++i, ++h) {
       if (ends_at(h)) continue;
       const Index other = TriMesh::face_of(mesh_.twin[h]);
-      if (block_of_[other] != kNone || !std::ranges::all_of(mesh_.faces[other], is_near)) continue;
+      if (block_of_[other] != kNone || !belongs(other)) continue;
       block_of_[other] = block;
       faces_.push_back(other);
     }

@@ -11,11 +11,18 @@
 
 namespace strake {
 
-/// The faces of a mesh in connected blocks that are small against the wanted distances of lines, so
-/// that a look around takes a few steps however fine the mesh is.
+/// Smallest wanted distance of lines at the corners of a face, model units.
+double least_spacing(const TriMesh& mesh, const Spacing& spacing, Index face);
+
+/// Whether a face is larger than lines are apart, so that several may run through it side by side.
+bool is_large_face(const TriMesh& mesh, const Spacing& spacing, Index face);
+
+/// The faces of a mesh in connected blocks about as large as lines are apart, so that a look around
+/// takes a few steps however fine the mesh is.
 ///
-/// A face as large as a block is one of its own, cut into slabs across its longest edge where it is
-/// much longer than lines are apart. No block reaches across a barrier.
+/// A large face is a block of its own, cut into slabs across its longest edge where it is much
+/// longer than lines are apart. No block reaches across a barrier, or around a rim: the two sides
+/// of a thin wall are in different ones.
 class FaceBlocks {
  public:
   /// \param barriers [3F] half-edges that walks and blocks end at, as at the boundary; kept by
@@ -53,7 +60,7 @@ class FaceBlocks {
   };
 
   [[nodiscard]] bool ends_at(Index h) const { return barriers_[h] != 0 || mesh_.is_boundary(h); }
-  void gather(Index first, double size);
+  void gather(Index first, const Spacing& spacing);
   [[nodiscard]] Ball ball_around(std::span<const Index> faces, double rounding) const;
   void find_ways();
   void cut(const Spacing& spacing);

@@ -277,7 +277,7 @@ double SpacingModel::tolerance_for_count(double count, const SpacingLimits& limi
   const double largest = std::log(0.2 * unit);
   double low = least;
   double high = largest;
-  for (int round = 0; round < 24; ++round) {  // without grading: cheap, and not far off
+  for (int round = 0; round < 10; ++round) {  // without grading: cheap, and not far off
     const double middle = 0.5 * (low + high);
     const Spacing spacing = ungraded(std::exp(middle), limits);
     (predicted_vertices(areas_, spacing) > count ? low : high) = middle;
