@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
+#include <limits>
 #include <vector>
 
 #include "common/core/types.h"
@@ -18,16 +20,16 @@ class BoxTree {
   /// Calls visit(i) for every box i that touches `box`, in an order that depends on the boxes only.
   template <class Visit>
   void visit_touching(const Box& box, Visit visit) const {
-    std::vector<Index> open;
-    if (!nodes_.empty()) open.push_back(0);
-    while (!open.empty()) {
-      const Node& node = nodes_[open.back()];
-      const Index at = open.back();
-      open.pop_back();
+    std::array<Index, kMostLevels> open;
+    int count = 0;
+    if (!nodes_.empty()) open[count++] = 0;
+    while (count > 0) {
+      const Index at = open[--count];
+      const Node& node = nodes_[at];
       if (!node.box.intersects(box)) continue;
       if (node.right != kNone) {
-        open.push_back(node.right);
-        open.push_back(at + 1);
+        open[count++] = node.right;
+        open[count++] = at + 1;
         continue;
       }
       for (Index k = node.begin; k < node.end; ++k) {
@@ -44,6 +46,9 @@ class BoxTree {
     Index end = 0;
     Index right = kNone;  ///< second child; the first one follows the node; kNone for a leaf
   };
+
+  /// Children are halves, and of each node on the way down one waits.
+  static constexpr int kMostLevels = std::numeric_limits<Index>::digits + 1;
 
   void build(Index begin, Index end);
 

@@ -1,9 +1,9 @@
 #include "common/geometry/face_crossings/exact_predicates.h"
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 namespace strake {
 namespace {
@@ -16,19 +16,21 @@ constexpr double kBound2 = (3 + 16 * kRounding) * kRounding;
 int sign(double x) { return (x > 0) - (x < 0); }
 
 /// A sum of doubles without rounding: parts that do not overlap, in ascending order of size.
+/// Of as many as `orientation` adds: four determinants of six products of four parts each.
 class ExactSum {
  public:
   void add(double x) {
     std::size_t kept = 0;
-    for (const double part : parts_) {
+    for (std::size_t i = 0; i < count_; ++i) {
+      const double part = parts_[i];
       const double sum = x + part;
       const double of_part = sum - x;
       const double rest = (x - (sum - of_part)) + (part - of_part);
       if (rest != 0) parts_[kept++] = rest;
       x = sum;
     }
-    parts_.resize(kept);
-    if (x != 0) parts_.push_back(x);
+    if (x != 0) parts_[kept++] = x;
+    count_ = kept;
   }
   void add_product(double a, double b) {
     const double product = a * b;
@@ -40,10 +42,13 @@ class ExactSum {
     add_product(std::fma(a, b, -product), c);
     add_product(product, c);
   }
-  [[nodiscard]] int sign() const { return parts_.empty() ? 0 : strake::sign(parts_.back()); }
+  [[nodiscard]] int sign() const { return count_ == 0 ? 0 : strake::sign(parts_[count_ - 1]); }
 
  private:
-  std::vector<double> parts_;
+  static constexpr std::size_t kMostParts = 4 * 6 * 4;
+
+  std::array<double, kMostParts> parts_;  // NOLINT: what is not counted is never read
+  std::size_t count_ = 0;
 };
 
 /// Adds factor * det(a, b, c), factor being 1 or -1.
