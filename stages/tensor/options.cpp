@@ -8,7 +8,9 @@ OptionList TensorOptions::declare() {
       {.name = "radius",
        .target = &radius,
        .unit = "length",
-       .help = "Radius of the ball over which curvature is averaged; larger for noisy scans.",
+       .help =
+           "Radius of the ball over which curvature is averaged; larger for noisy scans. 1% where "
+           "none is given, of meshes of more than three million faces less.",
        .min = 0.0001,
        .max = 0.5},
   };

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "common/core/fields.h"
 #include "common/core/observer.h"
 #include "common/core/options.h"
@@ -9,10 +11,18 @@
 namespace strake {
 
 struct TensorOptions {
-  Length radius = percent(1);  ///< of the averaging ball
+  std::optional<Length> radius;  ///< of the averaging ball; default see `ball_radius`
 
   OptionList declare();
 };
+
+/// Radius of the averaging balls, model units.
+///
+/// Where none is asked for 1 % of the diagonal. Beyond three million faces it falls with their
+/// edges, so that a ball does not hold more and more of them: time would grow with their square, to
+/// average away what such a scan shows.
+/// \param diagonal  of the bounding box, model units
+double ball_radius(const TensorOptions& options, double diagonal, Index faces);
 
 struct TensorResult {
   TensorField field;

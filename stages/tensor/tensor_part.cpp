@@ -15,7 +15,8 @@ TensorPartResult estimate_tensor_part(const MeshBlocks& blocks, const TensorPart
     throw UsageError("--part " + std::to_string(options.part) + ": there are only " +
                      std::to_string(options.parts) + " parts (--parts)");
   }
-  const double radius = options.tensor.radius.resolve(blocks.header().diagonal);
+  const double radius =
+      ball_radius(options.tensor, blocks.header().diagonal, blocks.header().faces);
   const auto parts = static_cast<Index>(options.parts);
   const auto number = static_cast<Index>(options.part);
   PartMesh part = read_part(blocks, parts, number - 1, kLargestGrowth * radius, observer);

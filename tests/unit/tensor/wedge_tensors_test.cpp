@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "stages/tensor/tensor.h"
 #include "tests/support/mesh_support.h"
 
 namespace strake {
@@ -28,6 +29,25 @@ TEST(WedgeTensors, DoNotSeeWhatFoldsOver) {
     SilentObserver observer;
     const WedgeTensors tensors = estimate_wedge_tensors(mesh, mesh.wedge_count(), radius, observer);
     for (const auto entry : tensors.tensor[wedge]) EXPECT_NEAR(entry, 0, 1e-6) << radius;
+  }
+}
+
+TEST(BallRadius, IsAsAskedFor) {
+  TensorOptions options;
+  options.radius = percent(3);
+  EXPECT_DOUBLE_EQ(ball_radius(options, 2, 100'000'000), 0.06);
+}
+
+// Faces in a ball: their number over the area of the surface, times that of the ball.
+TEST(BallRadius, KeepsTheNumberOfFacesInABallBounded) {
+  const auto faces_in_a_ball = [](Index faces) {
+    const double radius = ball_radius({}, 1, faces);
+    return faces * radius * radius;
+  };
+  EXPECT_DOUBLE_EQ(ball_radius({}, 2, 12), 0.02);
+  EXPECT_DOUBLE_EQ(ball_radius({}, 2, 1'000'000), 0.02);
+  for (const Index faces : {4'000'000, 16'000'000, 370'000'000}) {
+    EXPECT_NEAR(faces_in_a_ball(faces), faces_in_a_ball(3'000'000), 1e-6) << faces;
   }
 }
 
