@@ -16,6 +16,7 @@
 #include "common/geometry/carry_attributes.h"
 #include "common/geometry/cell_error/cell_error.h"
 #include "common/geometry/cell_error/tolerance_check.h"
+#include "common/geometry/face_crossings/face_crossings.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_topology.h"
 #include "stages/refine/split_cells.h"
@@ -43,6 +44,8 @@ constexpr std::size_t kHopeless = 4;
 constexpr std::size_t kFewPlaces = 100;
 /// Rounds in which the worst cells are divided up to a count.
 constexpr std::int64_t kRoundsOfCount = 4;
+/// Times that cells are left out because faces would cross.
+constexpr int kMostRetreats = 8;
 /// Vertices that dividing a cell gives, about.
 constexpr double kVerticesPerCell = 1.5;
 
@@ -62,6 +65,8 @@ class Refinement {
   }
 
   [[nodiscard]] const QuadMesh& quads() const { return quads_; }
+  /// Goes back to an earlier result.
+  void take_back(QuadMesh quads) { quads_ = std::move(quads); }
 
   /// Puts vertices that are farther than this off the surface back onto it.
   void put_back(const SurfaceDistance& input, double tolerance) {
@@ -320,6 +325,49 @@ std::int64_t refine_to_tolerance(const TriMesh& mesh, Refinement& refinement,
   }
 }
 
+bool has_any(std::span<const Index> face, const std::vector<std::uint8_t>& flags) {
+  return std::ranges::any_of(
+      face, [&](Index v) { return static_cast<std::size_t>(v) < flags.size() && flags[v] != 0; });
+}
+
+/// [V] 1: a vertex of a face that crosses another one.
+/// \param known  [vertices so far] 1: one of a face that did before; pairs of such faces do not
+///               count, nor those without a new vertex
+std::vector<std::uint8_t> vertices_of_crossings(const PolyMesh& mesh,
+                                                const std::vector<std::uint8_t>& known) {
+  const auto first_new = static_cast<Index>(known.size());
+  FaceTriangles triangles;
+  std::vector<std::uint8_t> is_new(static_cast<std::size_t>(mesh.face_count()), 0);
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    triangulate_face(mesh.positions, mesh.face(f), triangles.corners);
+    triangles.face.resize(triangles.corners.size(), f);
+    is_new[f] = std::ranges::any_of(mesh.face(f), [&](Index v) { return v >= first_new; });
+  }
+  std::vector<std::uint8_t> crossing(mesh.positions.size(), 0);
+  for (const auto& [f, g] : find_crossing_faces(mesh.positions, triangles, is_new, {})) {
+    if (has_any(mesh.face(f), known) && has_any(mesh.face(g), known)) continue;
+    for (const Index v : mesh.face(f)) crossing[v] = 1;
+    for (const Index v : mesh.face(g)) crossing[v] = 1;
+  }
+  return crossing;
+}
+
+/// Divides cells, leaving out those around which faces come to cross that did not before.
+void divide_without_crossings(Refinement& refinement, const ComparedSurfaces& surfaces,
+                              std::vector<Target> targets) {
+  const QuadMesh before = refinement.quads();
+  const std::vector<std::uint8_t> known = vertices_of_crossings(before.mesh, {});
+  for (int i = 0; i < kMostRetreats; ++i) {
+    refinement.divide(surfaces, targets, std::numeric_limits<double>::infinity());
+    const std::vector<std::uint8_t> crossing =
+        vertices_of_crossings(refinement.quads().mesh, known);
+    if (std::ranges::find(crossing, 1) == crossing.end()) return;
+    refinement.take_back(before);
+    std::erase_if(targets,
+                  [&](const Target& t) { return has_any(before.mesh.face(t.face), crossing); });
+  }
+}
+
 /// Divides the worst cells until there are enough vertices. \return the rounds it took
 std::int64_t refine_to_count(const TriMesh& mesh, Refinement& refinement,
                              const RefineOptions& options, Observer& observer) {
@@ -330,7 +378,7 @@ std::int64_t refine_to_count(const TriMesh& mesh, Refinement& refinement,
     const ComparedSurfaces surfaces(mesh, refinement.quads());
     const std::vector<Target> targets = worst_cells(surfaces, static_cast<double>(missing));
     if (targets.empty()) break;
-    refinement.divide(surfaces, targets, std::numeric_limits<double>::infinity());
+    divide_without_crossings(refinement, surfaces, targets);
   }
   return round;
 }

@@ -19,8 +19,8 @@ class CountSearch {
   };
 
   static constexpr int kMaxTrials = 6;
-  /// Relative errors at which the search ends. What is missing beyond is made up for by dividing
-  /// cells, which costs quads and more time than another try.
+  /// Relative errors at which the search ends. What is missing is made up for by dividing cells,
+  /// which costs quads.
   static constexpr double kMostMissing = 0.02;
   static constexpr double kMostExcess = 0.03;
 

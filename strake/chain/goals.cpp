@@ -20,6 +20,9 @@ namespace {
 /// Error of a wanted count above which the user is told.
 constexpr double kCountTolerance = 0.05;
 constexpr std::int64_t kFeedbackRounds = 1;
+/// Share of a wanted count that lines leave for dividing the cells that are worst: it takes a tenth
+/// off the errors, and a quarter off the largest, for two quads of a hundred.
+constexpr double kLeftForWorst = 0.015;
 /// Share of the way to a density that is enough, and rounds that may be spent on it.
 constexpr double kDensityReached = 0.9;
 constexpr int kMostDensityRounds = 5;
@@ -37,8 +40,8 @@ constexpr int kCloserPlaces = 5;
 constexpr double kCloserThere = 0.5;
 constexpr int kFewRounds = 2;
 constexpr int kAllRounds = std::numeric_limits<int>::max();
-/// Rounds of fitting before errors are fed back: enough to see where they will stay.
-constexpr int kFeedbackFitRounds = 3;
+/// Rounds of fitting before errors are measured: enough to see where they will stay.
+constexpr int kMeasuringFitRounds = 3;
 
 std::int64_t count_of(const Session& session, const char* port, Counted counted) {
   const PolyMesh& mesh = session.get<QuadMesh>(port).mesh;
@@ -52,14 +55,19 @@ void trace_and_mesh(Session& session, const GoalStages& stages) {
   session.run(stages.mesh);
 }
 
+/// Fits as many rounds as show where errors will stay.
+void fit_for_measuring(Session& session, const GoalStages& stages) {
+  const Option& rounds = stages.fit.option("fit-rounds");
+  const std::string all_rounds = rounds.value();
+  rounds.parse_into(std::to_string(std::min(kMeasuringFitRounds, std::stoi(all_rounds))));
+  session.run(stages.fit);
+  rounds.parse_into(all_rounds);
+}
+
 /// Wants other distances between lines where the present result is too far from the surface, and
 /// corrects the scale of all of them by the count.
 void feed_back(Session& session, const GoalStages& stages, Counted counted, std::int64_t aim) {
-  const Option& rounds = stages.fit.option("fit-rounds");
-  const std::string all_rounds = rounds.value();
-  rounds.parse_into(std::to_string(std::min(kFeedbackFitRounds, std::stoi(all_rounds))));
-  session.run(stages.fit);
-  rounds.parse_into(all_rounds);
+  fit_for_measuring(session, stages);
   session.run(stages.size);
   const Option& scale = stages.trace.option("spacing-scale");
   const double excess =
@@ -191,26 +199,31 @@ std::string close_in(Session& session, const GoalStages& stages) {
 
 std::string meet_count(Session& session, const GoalStages& stages, Counted counted,
                        std::int64_t wanted, std::optional<std::int64_t> feedback_rounds) {
+  const double left = only_quads(stages) ? 0 : kLeftForWorst;
+  const std::int64_t aim = std::llround((1 - left) * static_cast<double>(wanted));
   if (session.has("density") && !feedback_rounds) {
-    follow_density(session, stages, counted, wanted);
+    follow_density(session, stages, counted, aim);
   } else {
     for (std::int64_t round = 0; round < feedback_rounds.value_or(kFeedbackRounds); ++round) {
       trace_and_mesh(session, stages);
-      feed_back(session, stages, counted, wanted);
+      feed_back(session, stages, counted, aim);
     }
   }
-  search_scale(session, stages, counted, wanted);
+  search_scale(session, stages, counted, aim);
   session.keep(stages.trace);
   session.keep(stages.mesh);
-  session.run(stages.fit);
-  const std::int64_t missing = wanted - count_of(session, "fitted", counted);
-  if (static_cast<double>(missing) > CountSearch::kMostMissing * static_cast<double>(wanted) &&
-      !only_quads(stages)) {
-    const std::int64_t vertices = count_of(session, "fitted", Counted::vertices) + missing;
+  if (!only_quads(stages)) {
+    fit_for_measuring(session, stages);
+    const auto least = static_cast<std::int64_t>(kLeftForWorst / 2 * static_cast<double>(wanted));
+    const std::int64_t missing = wanted - count_of(session, "fitted", counted);
+    const std::int64_t vertices =
+        count_of(session, "fitted", Counted::vertices) + std::max(missing, least);
     stages.refine.option("refine-vertices").parse_into(std::to_string(vertices));
     session.run(stages.refine);
     session.keep(stages.refine);
     fit_refined(session, stages);
+  } else {
+    session.run(stages.fit);
   }
   session.keep(stages.fit);
   const std::int64_t reached = count_of(session, "fitted", counted);
