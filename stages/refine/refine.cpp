@@ -256,8 +256,8 @@ std::vector<Target> cells_beyond(const TriMesh& mesh, const QuadMesh& quads,
   return targets;
 }
 
-/// The cells that are farthest off, as many as should give `vertices`.
-std::vector<Target> worst_cells(const ComparedSurfaces& surfaces, double vertices) {
+/// All cells, those that are farthest off first.
+std::vector<Target> cells_by_distance(const ComparedSurfaces& surfaces) {
   const ErrorMap errors = measure_cells(surfaces);
   std::vector<Target> targets;
   for (std::size_t f = 0; f < errors.cells.size(); ++f) {
@@ -265,8 +265,6 @@ std::vector<Target> worst_cells(const ComparedSurfaces& surfaces, double vertice
   }
   std::stable_sort(targets.begin(), targets.end(),
                    [](const Target& a, const Target& b) { return a.distance > b.distance; });
-  const auto wanted = static_cast<std::size_t>(std::max(0.0, vertices / kVerticesPerCell));
-  targets.resize(std::min(targets.size(), wanted));
   return targets;
 }
 
@@ -352,19 +350,23 @@ std::vector<std::uint8_t> vertices_of_crossings(const PolyMesh& mesh,
   return crossing;
 }
 
-/// Divides cells, leaving out those around which faces come to cross that did not before.
+/// Divides the first cells, leaving out those around which faces come to cross that did not before.
 void divide_without_crossings(Refinement& refinement, const ComparedSurfaces& surfaces,
-                              std::vector<Target> targets) {
+                              std::vector<Target> targets, std::size_t wanted) {
   const QuadMesh before = refinement.quads();
   const std::vector<std::uint8_t> known = vertices_of_crossings(before.mesh, {});
   for (int i = 0; i < kMostRetreats; ++i) {
-    refinement.divide(surfaces, targets, std::numeric_limits<double>::infinity());
+    const auto last =
+        targets.begin() + static_cast<std::ptrdiff_t>(std::min(wanted, targets.size()));
+    refinement.divide(surfaces, {targets.begin(), last}, std::numeric_limits<double>::infinity());
     const std::vector<std::uint8_t> crossing =
         vertices_of_crossings(refinement.quads().mesh, known);
     if (std::ranges::find(crossing, 1) == crossing.end()) return;
     refinement.take_back(before);
-    std::erase_if(targets,
-                  [&](const Target& t) { return has_any(before.mesh.face(t.face), crossing); });
+    const auto is_to_blame = [&](const Target& t) {
+      return has_any(before.mesh.face(t.face), crossing);
+    };
+    targets.erase(std::remove_if(targets.begin(), last, is_to_blame), last);
   }
 }
 
@@ -376,9 +378,10 @@ std::int64_t refine_to_count(const TriMesh& mesh, Refinement& refinement,
     observer.report("dividing cells", double(round) / double(kRoundsOfCount));
     const std::int64_t missing = *options.vertices - refinement.quads().mesh.vertex_count();
     const ComparedSurfaces surfaces(mesh, refinement.quads());
-    const std::vector<Target> targets = worst_cells(surfaces, static_cast<double>(missing));
-    if (targets.empty()) break;
-    divide_without_crossings(refinement, surfaces, targets);
+    const auto cells = static_cast<double>(missing) / kVerticesPerCell;
+    if (cells < 1) break;
+    divide_without_crossings(refinement, surfaces, cells_by_distance(surfaces),
+                             static_cast<std::size_t>(cells));
   }
   return round;
 }

@@ -10,6 +10,7 @@
 #include "common/core/error.h"
 #include "common/core/tolerance_error.h"
 #include "common/geometry/cell_error/tolerance_check.h"
+#include "common/geometry/face_crossings/face_crossings.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_topology.h"
 #include "common/geometry/samples/samples.h"
@@ -232,6 +233,51 @@ TEST(Refine, SpendsACountOnTheWorstCells) {
   EXPECT_NEAR(result.mesh.vertex_count(), 100, 5);
   for (Index v = 81; v < result.mesh.vertex_count(); ++v) {
     EXPECT_GT(result.mesh.positions[v].x(), 0.49) << "the flat half needs nothing";
+  }
+}
+
+/// Two arched sheets, one just above the other and a little flatter, with a flat face for each:
+/// that of the lower one is farther off, and half of it would stick through that of the upper one.
+Case arched_sheets(double gap) {
+  Case result;
+  PolyMesh soup;
+  for (const auto& [k, z] : {std::pair{0.31, 0.0}, std::pair{0.30, gap}}) {
+    const Case sheet = bent_strip(k);
+    const Index vertices = soup.vertex_count();
+    const Index faces = soup.face_count();
+    const Index corners = result.quads.mesh.vertex_count();
+    for (const Vec3& p : sheet.mesh.positions) soup.positions.emplace_back(p + Vec3(0, 0, z));
+    for (const auto& [a, b, c] : sheet.mesh.faces) {
+      soup.add_face(std::array<Index, 3>{vertices + a, vertices + b, vertices + c});
+    }
+    QuadMesh& quads = result.quads;
+    for (Index v = 0; v < sheet.quads.mesh.vertex_count(); ++v) {
+      quads.mesh.positions.emplace_back(sheet.quads.mesh.positions[v] + Vec3(0, 0, z));
+      quads.provenance.face.push_back(faces + sheet.quads.provenance.face[v]);
+      quads.provenance.barycentric.push_back(sheet.quads.provenance.barycentric[v]);
+      quads.provenance.lines.push_back({kNone, kNone});
+    }
+    std::vector<Index> face(sheet.quads.mesh.face(0).begin(), sheet.quads.mesh.face(0).end());
+    for (Index& v : face) v += corners;
+    quads.mesh.add_face(face);
+  }
+  result.mesh = support::plain_tri_mesh(soup);
+  return result;
+}
+
+TEST(Refine, DoesNotMakeFacesCrossForACount) {
+  const Case c = arched_sheets(0.01);
+  for (const std::int64_t vertices : {10, 12}) {
+    RefineOptions options;
+    options.vertices = vertices;
+    const PolyMesh result = refined(c, options).mesh;
+    EXPECT_EQ(result.vertex_count(), vertices) << "another cell is divided instead";
+    FaceTriangles triangles;
+    for (Index f = 0; f < result.face_count(); ++f) {
+      triangulate_face(result.positions, result.face(f), triangles.corners);
+      triangles.face.resize(triangles.corners.size(), f);
+    }
+    EXPECT_TRUE(find_crossing_faces(result.positions, triangles).empty()) << vertices;
   }
 }
 
