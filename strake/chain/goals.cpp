@@ -199,7 +199,8 @@ std::string close_in(Session& session, const GoalStages& stages) {
 
 std::string meet_count(Session& session, const GoalStages& stages, Counted counted,
                        std::int64_t wanted, std::optional<std::int64_t> feedback_rounds) {
-  const double left = only_quads(stages) ? 0 : kLeftForWorst;
+  // A density says where vertices go, not the errors.
+  const double left = only_quads(stages) || session.has("density") ? 0 : kLeftForWorst;
   const std::int64_t aim = std::llround((1 - left) * static_cast<double>(wanted));
   if (session.has("density") && !feedback_rounds) {
     follow_density(session, stages, counted, aim);
@@ -212,10 +213,11 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
   search_scale(session, stages, counted, aim);
   session.keep(stages.trace);
   session.keep(stages.mesh);
-  if (!only_quads(stages)) {
+  const std::int64_t missing = wanted - count_of(session, "quads", counted);
+  const double share_missing = static_cast<double>(missing) / static_cast<double>(wanted);
+  if (left > 0 || (share_missing > CountSearch::kMostMissing && !only_quads(stages))) {
     fit_for_measuring(session, stages);
-    const auto least = static_cast<std::int64_t>(kLeftForWorst / 2 * static_cast<double>(wanted));
-    const std::int64_t missing = wanted - count_of(session, "fitted", counted);
+    const auto least = static_cast<std::int64_t>(left / 2 * static_cast<double>(wanted));
     const std::int64_t vertices =
         count_of(session, "fitted", Counted::vertices) + std::max(missing, least);
     stages.refine.option("refine-vertices").parse_into(std::to_string(vertices));

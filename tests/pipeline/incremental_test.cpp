@@ -84,7 +84,7 @@ TEST_F(Incremental, AnotherCommentImportsOnly) {
 
 TEST_F(Incremental, WrittenDefaultsChangeNothing) {
   pipeline(
-      "models: [torus.obj]\noptions: {tensor: {radius: 1.0%}, trace: {seed: 01}}\n"
+      "models: [torus.obj]\noptions: {import: {feature-angle: 40.0}, trace: {seed: 01}}\n"
       "outputs: {quads: 'out/{model}.obj', report: 'out/{model}.json'}\n");
   expect_nothing_to_do();
 }
