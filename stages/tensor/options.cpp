@@ -10,7 +10,7 @@ OptionList TensorOptions::declare() {
        .unit = "length",
        .help =
            "Radius of the ball over which curvature is averaged; larger for noisy scans. 1% where "
-           "none is given, of meshes of more than three million faces less.",
+           "none is given, of meshes of more than two million faces less.",
        .min = 0.0001,
        .max = 0.5},
   };

@@ -10,7 +10,7 @@ namespace strake {
 namespace {
 
 constexpr Length kDefaultRadius = percent(1);
-constexpr double kMostFacesOfDefault = 3e6;
+constexpr double kMostFacesOfDefault = 2e6;
 
 }  // namespace
 

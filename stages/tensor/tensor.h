@@ -18,7 +18,7 @@ struct TensorOptions {
 
 /// Radius of the averaging balls, model units.
 ///
-/// Where none is asked for 1 % of the diagonal. Beyond three million faces it falls with their
+/// Where none is asked for 1 % of the diagonal. Beyond two million faces it falls with their
 /// edges, so that a ball does not hold more and more of them: time would grow with their square, to
 /// average away what such a scan shows.
 /// \param diagonal  of the bounding box, model units
