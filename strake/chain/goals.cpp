@@ -20,8 +20,8 @@ namespace {
 /// Error of a wanted count above which the user is told.
 constexpr double kCountTolerance = 0.05;
 constexpr std::int64_t kFeedbackRounds = 1;
-/// Share of a wanted count that lines leave for dividing the cells that are worst: it takes a tenth
-/// off the errors, and a quarter off the largest, for two quads of a hundred.
+/// Share of a wanted count that lines leave for dividing the cells that are worst: for one quad of
+/// a hundred it takes a twelfth off the errors, and an eighth off the largest.
 constexpr double kLeftForWorst = 0.015;
 /// Share of the way to a density that is enough, and rounds that may be spent on it.
 constexpr double kDensityReached = 0.9;
