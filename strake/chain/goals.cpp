@@ -23,6 +23,9 @@ constexpr std::int64_t kFeedbackRounds = 1;
 /// Share of a wanted count that lines leave for dividing the cells that are worst: for one quad of
 /// a hundred it takes a twelfth off the errors, and an eighth off the largest.
 constexpr double kLeftForWorst = 0.015;
+/// Share that dividing may add to what lines give, each vertex costing a quad; more only where the
+/// count would be missed otherwise.
+constexpr double kMostDivided = 0.03;
 /// Share of the way to a density that is enough, and rounds that may be spent on it.
 constexpr double kDensityReached = 0.9;
 constexpr int kMostDensityRounds = 5;
@@ -109,9 +112,10 @@ bool only_quads(const GoalStages& stages) {
 }
 
 /// Looks for the scale of distances that gives the count. Where all are too far above or below it,
-/// as on coarse meshes, takes what is below: cells can be divided. \pre traced and meshed at the
-/// present scale
-void search_scale(Session& session, const GoalStages& stages, Counted counted, std::int64_t aim) {
+/// as on coarse meshes, takes what is below: cells can be divided. \param wanted  to tell the user
+/// \pre traced and meshed at the present scale
+void search_scale(Session& session, const GoalStages& stages, Counted counted, std::int64_t aim,
+                  std::int64_t wanted) {
   const Option& option = stages.trace.option("spacing-scale");
   CountSearch search(aim, std::stod(option.value()), option.min, option.max);
   struct Found {
@@ -130,7 +134,7 @@ void search_scale(Session& session, const GoalStages& stages, Counted counted, s
       break;
     }
     const std::int64_t count = count_of(session, "quads", counted);
-    session.say(fmt::format("{} {}, {} wanted", count, name_of(counted), aim));
+    session.say(fmt::format("{} {} so far, {} wanted", count, name_of(counted), wanted));
     search.record(*scale, count);
     if (search.best().scale == *scale) best = {session, search.best()};
     if (count <= aim && (!below || count > below->trial.count)) below = {session, {*scale, count}};
@@ -197,6 +201,20 @@ std::string close_in(Session& session, const GoalStages& stages) {
 
 }  // namespace
 
+namespace {
+
+/// Vertices or faces that dividing cells is to add to those that lines give.
+/// \param left  share of the wanted count that lines leave for it
+std::int64_t to_add(std::int64_t given, std::int64_t wanted, double left) {
+  const auto have = static_cast<double>(given);
+  const auto aim = static_cast<double>(wanted);
+  const double nearly = (1 - 0.8 * kCountTolerance) * aim;
+  const double most = std::max((1 + kMostDivided) * have, nearly);
+  return std::llround(std::max(std::min(aim, most) - have, left / 2 * aim));
+}
+
+}  // namespace
+
 std::string meet_count(Session& session, const GoalStages& stages, Counted counted,
                        std::int64_t wanted, std::optional<std::int64_t> feedback_rounds) {
   // A density says where vertices go, not the errors.
@@ -210,16 +228,15 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
       feed_back(session, stages, counted, aim);
     }
   }
-  search_scale(session, stages, counted, aim);
+  search_scale(session, stages, counted, aim, wanted);
   session.keep(stages.trace);
   session.keep(stages.mesh);
-  const std::int64_t missing = wanted - count_of(session, "quads", counted);
-  const double share_missing = static_cast<double>(missing) / static_cast<double>(wanted);
-  if (left > 0 || (share_missing > CountSearch::kMostMissing && !only_quads(stages))) {
+  const std::int64_t given = count_of(session, "quads", counted);
+  const double missing = 1 - static_cast<double>(given) / static_cast<double>(wanted);
+  if (left > 0 || (missing > CountSearch::kMostMissing && !only_quads(stages))) {
     fit_for_measuring(session, stages);
-    const auto least = static_cast<std::int64_t>(left / 2 * static_cast<double>(wanted));
     const std::int64_t vertices =
-        count_of(session, "fitted", Counted::vertices) + std::max(missing, least);
+        count_of(session, "fitted", Counted::vertices) + to_add(given, wanted, left);
     stages.refine.option("refine-vertices").parse_into(std::to_string(vertices));
     session.run(stages.refine);
     session.keep(stages.refine);
