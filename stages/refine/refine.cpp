@@ -44,7 +44,7 @@ constexpr std::size_t kHopeless = 4;
 constexpr std::size_t kFewPlaces = 100;
 /// Rounds in which the worst cells are divided up to a count.
 constexpr std::int64_t kRoundsOfCount = 4;
-/// Times that cells are left out because faces would cross.
+/// Times that cells are left out because of what dividing them would do.
 constexpr int kMostRetreats = 8;
 /// Vertices that dividing a cell gives, about.
 constexpr double kVerticesPerCell = 1.5;
@@ -328,11 +328,11 @@ bool has_any(std::span<const Index> face, const std::vector<std::uint8_t>& flags
       face, [&](Index v) { return static_cast<std::size_t>(v) < flags.size() && flags[v] != 0; });
 }
 
-/// [V] 1: a vertex of a face that crosses another one.
-/// \param known  [vertices so far] 1: one of a face that did before; pairs of such faces do not
-///               count, nor those without a new vertex
-std::vector<std::uint8_t> vertices_of_crossings(const PolyMesh& mesh,
-                                                const std::vector<std::uint8_t>& known) {
+/// [V] 1: a vertex of a face that crosses another one, or of a concave one with a new vertex.
+/// \param known  [vertices so far] 1: one of a face that crossed another one before; pairs of such
+///               faces do not count, nor those without a new vertex
+std::vector<std::uint8_t> vertices_of_faults(const PolyMesh& mesh,
+                                             const std::vector<std::uint8_t>& known) {
   const auto first_new = static_cast<Index>(known.size());
   FaceTriangles triangles;
   std::vector<std::uint8_t> is_new(static_cast<std::size_t>(mesh.face_count()), 0);
@@ -341,30 +341,36 @@ std::vector<std::uint8_t> vertices_of_crossings(const PolyMesh& mesh,
     triangles.face.resize(triangles.corners.size(), f);
     is_new[f] = std::ranges::any_of(mesh.face(f), [&](Index v) { return v >= first_new; });
   }
-  std::vector<std::uint8_t> crossing(mesh.positions.size(), 0);
+  std::vector<std::uint8_t> faulty(mesh.positions.size(), 0);
+  const auto note = [&](Index f) {
+    for (const Index v : mesh.face(f)) faulty[v] = 1;
+  };
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    if (first_new > 0 && is_new[f] != 0 && is_concave_face(mesh.positions, mesh.face(f))) note(f);
+  }
   for (const auto& [f, g] : find_crossing_faces(mesh.positions, triangles, is_new, {})) {
     if (has_any(mesh.face(f), known) && has_any(mesh.face(g), known)) continue;
-    for (const Index v : mesh.face(f)) crossing[v] = 1;
-    for (const Index v : mesh.face(g)) crossing[v] = 1;
+    note(f);
+    note(g);
   }
-  return crossing;
+  return faulty;
 }
 
-/// Divides the first cells, leaving out those around which faces come to cross that did not before.
-void divide_without_crossings(Refinement& refinement, const ComparedSurfaces& surfaces,
-                              std::vector<Target> targets, std::size_t wanted) {
+/// Divides the first cells, leaving out those around which faces come to cross that did not before,
+/// or to be concave.
+void divide_without_faults(Refinement& refinement, const ComparedSurfaces& surfaces,
+                           std::vector<Target> targets, std::size_t wanted) {
   const QuadMesh before = refinement.quads();
-  const std::vector<std::uint8_t> known = vertices_of_crossings(before.mesh, {});
+  const std::vector<std::uint8_t> known = vertices_of_faults(before.mesh, {});
   for (int i = 0; i < kMostRetreats; ++i) {
     const auto last =
         targets.begin() + static_cast<std::ptrdiff_t>(std::min(wanted, targets.size()));
     refinement.divide(surfaces, {targets.begin(), last}, std::numeric_limits<double>::infinity());
-    const std::vector<std::uint8_t> crossing =
-        vertices_of_crossings(refinement.quads().mesh, known);
-    if (std::ranges::find(crossing, 1) == crossing.end()) return;
+    const std::vector<std::uint8_t> faulty = vertices_of_faults(refinement.quads().mesh, known);
+    if (std::ranges::find(faulty, 1) == faulty.end()) return;
     refinement.take_back(before);
     const auto is_to_blame = [&](const Target& t) {
-      return has_any(before.mesh.face(t.face), crossing);
+      return has_any(before.mesh.face(t.face), faulty);
     };
     targets.erase(std::remove_if(targets.begin(), last, is_to_blame), last);
   }
@@ -380,8 +386,8 @@ std::int64_t refine_to_count(const TriMesh& mesh, Refinement& refinement,
     const ComparedSurfaces surfaces(mesh, refinement.quads());
     const auto cells = static_cast<double>(missing) / kVerticesPerCell;
     if (cells < 1) break;
-    divide_without_crossings(refinement, surfaces, cells_by_distance(surfaces),
-                             static_cast<std::size_t>(cells));
+    divide_without_faults(refinement, surfaces, cells_by_distance(surfaces),
+                          static_cast<std::size_t>(cells));
   }
   return round;
 }
