@@ -244,7 +244,8 @@ void BallWalker::add_large(Index face, const Vec3& centre, double radius, const 
   }
 }
 
-std::array<double, 6> BallWalker::tensor(Index h, const Vec3& normal, double radius) {
+/// Sums over the ball. \return false where it meets more than `most` faces: the sum is not whole
+bool BallWalker::sum(Index h, const Vec3& normal, double radius, Index most) {
   if (++current_ == 0) {
     std::fill(stamp_.begin(), stamp_.end(), 0U);
     current_ = 1;
@@ -256,6 +257,7 @@ std::array<double, 6> BallWalker::tensor(Index h, const Vec3& normal, double rad
   sum_ = {};
   const Vec3 centre = cycles_.mesh().positions[cycles_.mesh().from(h)];
   for (std::size_t at = 0; at < front_.size(); ++at) {
+    if (most != kNone && front_.size() > static_cast<std::size_t>(most)) return false;
     const FaceCycles::Tile& tile = cycles_.tile(front_[at]);
     const Vec3 middle(tile.centre[0], tile.centre[1], tile.centre[2]);
     const double room = radius - tile.radius;
@@ -267,6 +269,29 @@ std::array<double, 6> BallWalker::tensor(Index h, const Vec3& normal, double rad
       add_large(front_[at], centre, radius, normal);
     }
   }
+  return true;
+}
+
+/// Of the faces on the front from `centre`.
+double BallWalker::median_distance(const Vec3& centre) {
+  distance_.clear();
+  for (const Index face : front_) {
+    const FaceCycles::Tile& tile = cycles_.tile(face);
+    const Vec3 middle(tile.centre[0], tile.centre[1], tile.centre[2]);
+    distance_.push_back(static_cast<float>((middle - centre).norm()));
+  }
+  const auto middle = distance_.begin() + static_cast<std::ptrdiff_t>(distance_.size() / 2);
+  std::nth_element(distance_.begin(), middle, distance_.end());
+  return *middle;
+}
+
+std::array<double, 6> BallWalker::tensor(Index h, const Vec3& normal, const BallSize& size) {
+  const Vec3& centre = cycles_.mesh().positions[cycles_.mesh().from(h)];
+  double radius = size.radius;
+  while (!sum(h, normal, radius, radius > size.least_radius ? size.most_faces : kNone)) {
+    radius = std::max(size.least_radius, std::min(radius / 2, median_distance(centre)));
+  }
+  if (radius < size.radius) ++shrunk_;
   std::array<double, 6> tensor = sum_;
   if (area_ > 0) {
     for (double& entry : tensor) entry /= area_;

@@ -46,6 +46,13 @@ class FaceCycles {
   std::vector<Tile> tiles_;       ///< [F]
 };
 
+/// How large a ball is to be.
+struct BallSize {
+  double radius;             ///< model units
+  double least_radius = 0;   ///< below which the ball does not shrink, model units
+  Index most_faces = kNone;  ///< beyond which it shrinks; kNone: never
+};
+
 /// Sums normal cycles over mesh-connected balls; keeps its work arrays between calls.
 class BallWalker {
  public:
@@ -54,9 +61,15 @@ class BallWalker {
 
   /// The tensor (xx, xy, xz, yy, yz, zz) of the ball around the corner `h`, reached from its wedge
   /// without crossing features or faces that turn away from `normal`.
-  std::array<double, 6> tensor(Index h, const Vec3& normal, double radius);
+  ///
+  /// Where it shrinks it holds about half of the most faces.
+  std::array<double, 6> tensor(Index h, const Vec3& normal, const BallSize& size);
+  /// Balls so far that have shrunk.
+  [[nodiscard]] Index shrunk() const { return shrunk_; }
 
  private:
+  bool sum(Index h, const Vec3& normal, double radius, Index most);
+  [[nodiscard]] double median_distance(const Vec3& centre);
   bool visit(Index face, const Vec3& normal);
   void add_whole(Index face, const Vec3& normal);
   void add_large(Index face, const Vec3& centre, double radius, const Vec3& normal);
@@ -66,6 +79,8 @@ class BallWalker {
   std::vector<std::uint32_t> stamp_;
   std::uint32_t current_ = 0;
   std::vector<Index> front_;
+  std::vector<float> distance_;
+  Index shrunk_ = 0;
   double area_ = 0;
   std::array<double, 6> sum_{};
 };

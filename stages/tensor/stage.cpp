@@ -9,7 +9,7 @@ namespace strake {
 Stage tensor_stage() {
   Stage stage;
   stage.name = "tensor";
-  stage.version = 5;
+  stage.version = 6;
   stage.summary = "Estimates the curvature tensor of a mesh at every vertex.";
   stage.inputs = {{"mesh", PortKind::mesh, "mesh artifact"}};
   stage.output = {"tensor", PortKind::tensor, "tensor artifact to write, .hdf"};

@@ -11,24 +11,27 @@ namespace {
 
 constexpr Length kDefaultRadius = percent(1);
 constexpr double kMostFacesOfDefault = 2e6;
+constexpr Index kMostFacesOfBall =
+    4000;  // almost twice those in any ball of models up to 1 million
 
 }  // namespace
 
-double ball_radius(const TensorOptions& options, double diagonal, Index faces) {
-  if (options.radius) return options.radius->resolve(diagonal);
+BallRule ball_rule(const TensorOptions& options, double diagonal, Index faces) {
+  if (options.radius) return {options.radius->resolve(diagonal)};
   const double share = kMostFacesOfDefault / std::max<Index>(faces, 1);
-  return std::sqrt(std::min(1.0, share)) * kDefaultRadius.resolve(diagonal);
+  return {std::sqrt(std::min(1.0, share)) * kDefaultRadius.resolve(diagonal), kMostFacesOfBall};
 }
 
 TensorResult estimate_tensors(const TriMesh& mesh, const TensorOptions& options,
                               Observer& observer) {
-  const double radius = ball_radius(options, mesh.diagonal, mesh.face_count());
-  WedgeTensors tensors = estimate_wedge_tensors(mesh, mesh.wedge_count(), radius, observer);
+  const BallRule rule = ball_rule(options, mesh.diagonal, mesh.face_count());
+  WedgeTensors tensors = estimate_wedge_tensors(mesh, mesh.wedge_count(), rule, observer);
   TensorResult result;
   result.field = {mesh.id, std::move(tensors.tensor), std::move(tensors.normal)};
-  result.report.set("tensor.radius", radius);
+  result.report.set("tensor.radius", rule.radius);
   result.report.set("tensor.wedges", mesh.wedge_count());
   result.report.set("tensor.balls_grown_to_edge_length", tensors.grown);
+  result.report.set("tensor.balls_shrunk_to_fewer_faces", tensors.shrunk);
   return result;
 }
 

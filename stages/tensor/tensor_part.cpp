@@ -15,13 +15,12 @@ TensorPartResult estimate_tensor_part(const MeshBlocks& blocks, const TensorPart
     throw UsageError("--part " + std::to_string(options.part) + ": there are only " +
                      std::to_string(options.parts) + " parts (--parts)");
   }
-  const double radius =
-      ball_radius(options.tensor, blocks.header().diagonal, blocks.header().faces);
+  const BallRule rule = ball_rule(options.tensor, blocks.header().diagonal, blocks.header().faces);
   const auto parts = static_cast<Index>(options.parts);
   const auto number = static_cast<Index>(options.part);
-  PartMesh part = read_part(blocks, parts, number - 1, kLargestGrowth * radius, observer);
+  PartMesh part = read_part(blocks, parts, number - 1, kLargestGrowth * rule.radius, observer);
   const auto count = static_cast<Index>(part.wedge.size());
-  WedgeTensors tensors = estimate_wedge_tensors(part.mesh, count, radius, observer);
+  WedgeTensors tensors = estimate_wedge_tensors(part.mesh, count, rule, observer);
 
   TensorPartResult result;
   result.part.mesh_id = blocks.header().id;
@@ -33,11 +32,12 @@ TensorPartResult estimate_tensor_part(const MeshBlocks& blocks, const TensorPart
   }
   result.part.tensor = std::move(tensors.tensor);
   result.part.normal = std::move(tensors.normal);
-  result.report.set("tensor.radius", radius);
+  result.report.set("tensor.radius", rule.radius);
   result.report.set("tensor.wedges", count);
   result.report.set("tensor.faces_kept", part.mesh.face_count());
   result.report.set("tensor.faces", blocks.header().faces);
   result.report.set("tensor.balls_grown_to_edge_length", tensors.grown);
+  result.report.set("tensor.balls_shrunk_to_fewer_faces", tensors.shrunk);
   return result;
 }
 

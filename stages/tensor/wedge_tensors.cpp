@@ -33,7 +33,7 @@ std::vector<double> wedge_edge_lengths(const TriMesh& mesh) {
 
 }  // namespace
 
-WedgeTensors estimate_wedge_tensors(const TriMesh& mesh, Index count, double radius,
+WedgeTensors estimate_wedge_tensors(const TriMesh& mesh, Index count, const BallRule& rule,
                                     Observer& observer) {
   const std::vector<Vec3> normals = face_normals(mesh);
   const FaceCycles cycles(mesh, normals);
@@ -58,14 +58,17 @@ WedgeTensors estimate_wedge_tensors(const TriMesh& mesh, Index count, double rad
     tbb::parallel_for(tbb::blocked_range<Index>(first, last, 32), [&](const auto& range) {
       BallWalker& walker = walkers.local();
       for (Index w = range.begin(); w != range.end(); ++w) {
-        const double r = std::clamp(1.5 * edge_length[w], radius, kLargestGrowth * radius);
-        if (r > radius) grown.fetch_add(1, std::memory_order_relaxed);
-        result.tensor[w] = walker.tensor(wedge_corner[w], result.normal[w], r);
+        const double one_ring = 1.5 * edge_length[w];
+        const double r = std::clamp(one_ring, rule.radius, kLargestGrowth * rule.radius);
+        if (r > rule.radius) grown.fetch_add(1, std::memory_order_relaxed);
+        result.tensor[w] =
+            walker.tensor(wedge_corner[w], result.normal[w], {r, one_ring, rule.most_faces});
       }
     });
     observer.report("estimating curvature tensors", double(part + 1) / reports);
   }
   result.grown = grown.load();
+  for (const BallWalker& walker : walkers) result.shrunk += walker.shrunk();
   return result;
 }
 

@@ -12,10 +12,18 @@ namespace strake {
 /// of edges the estimate only sees single dihedral angles.
 inline constexpr double kLargestGrowth = 3;
 
+/// Which balls are wanted. One of more faces than `most_faces` shrinks, but not below one ring of
+/// edges.
+struct BallRule {
+  double radius;             ///< model units
+  Index most_faces = kNone;  ///< kNone: no ball shrinks
+};
+
 struct WedgeTensors {
   std::vector<std::array<double, 6>> tensor;  ///< [count] as TensorField::tensor
   std::vector<Vec3> normal;                   ///< [count] as TensorField::normal
   Index grown = 0;                            ///< balls that grew beyond the wanted radius
+  Index shrunk = 0;                           ///< balls that shrank to hold fewer faces
 };
 
 /// Estimates the tensors of the wedges 0 ... count - 1 of a mesh.
@@ -24,8 +32,7 @@ struct WedgeTensors {
 /// p, and where one of these is a sliver, the faces from which `face_normals` gives it a normal.
 /// Sums run in the order of faces and corners, so a mesh that has these faces in the same order
 /// gives the same bits.
-/// \param radius  of the balls, model units
-WedgeTensors estimate_wedge_tensors(const TriMesh& mesh, Index count, double radius,
+WedgeTensors estimate_wedge_tensors(const TriMesh& mesh, Index count, const BallRule& rule,
                                     Observer& observer);
 
 }  // namespace strake

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "common/geometry/frames.h"
 #include "common/geometry/mesh_measures.h"
@@ -75,8 +77,8 @@ void for_each_bond(const TriMesh& mesh, const std::vector<std::uint8_t>& turned,
   }
 }
 
-/// Keys in the order of their values, roughly: by intervals. No value may be added that is below
-/// those taken out last.
+/// Keys in the order of their values. They wait by intervals, and only those of the first one are
+/// in a heap. No value may be added that is below those taken out last.
 class KeyQueue {
  public:
   /// \param width  of the intervals; they are wider where there would be too many
@@ -84,21 +86,35 @@ class KeyQueue {
       : least_(least),
         per_width_(1 / std::max({width, (largest - least) / kMostIntervals,
                                  std::numeric_limits<double>::min()})),
-        keys_(interval_of(largest) + 1) {}
+        waiting_(interval_of(largest) + 1) {}
 
-  void push(double value, Index key) { keys_[interval_of(value)].push_back(key); }
+  void push(double value, Index key) {
+    const std::size_t interval = interval_of(value);
+    if (interval >= next_) {
+      waiting_[interval].push_back(key);
+    } else {
+      heap_.emplace_back(value, key);
+      std::ranges::push_heap(heap_, std::greater());
+    }
+  }
 
-  /// Takes a key out whose value is in the first interval that is not empty.
+  /// Takes out the key of the least value.
   /// \param value  [keys] the present ones; keys whose value has fallen since are left out
   std::optional<Index> pop(const std::vector<double>& value) {
-    for (; first_ < keys_.size(); std::vector<Index>().swap(keys_[first_++])) {
-      while (!keys_[first_].empty()) {
-        const Index key = keys_[first_].back();
-        keys_[first_].pop_back();
-        if (interval_of(value[key]) == first_) return key;
+    while (true) {
+      while (!heap_.empty()) {
+        std::ranges::pop_heap(heap_, std::greater());
+        const auto [pushed, key] = heap_.back();
+        heap_.pop_back();
+        if (pushed == value[key]) return key;
       }
+      if (next_ == waiting_.size()) return std::nullopt;
+      for (const Index key : waiting_[next_]) {
+        if (interval_of(value[key]) == next_) heap_.emplace_back(value[key], key);
+      }
+      std::ranges::make_heap(heap_, std::greater());
+      std::vector<Index>().swap(waiting_[next_++]);
     }
-    return std::nullopt;
   }
 
  private:
@@ -110,8 +126,9 @@ class KeyQueue {
 
   double least_;
   double per_width_;
-  std::vector<std::vector<Index>> keys_;
-  std::size_t first_ = 0;
+  std::vector<std::vector<Index>> waiting_;
+  std::size_t next_ = 0;  ///< the first interval that waits
+  std::vector<std::pair<double, Index>> heap_;
 };
 
 }  // namespace
@@ -230,7 +247,6 @@ void SpacingModel::grade(const SpacingLimits& limits, Spacing& spacing) const {
     const auto [small, large] = std::minmax(spacing.along[w], spacing.across[w]);
     aspect[w] = std::max(kGradedAspect, large / small);
   }
-  // Whatever the order, the same values come out; ascending ones save work.
   const auto [least, largest] = std::ranges::minmax(value);
   const double mean_distance = std::accumulate(distances_.begin(), distances_.end(), 0.0) /
                                static_cast<double>(std::max<std::size_t>(1, distances_.size()));

@@ -137,7 +137,7 @@ void ball_tensor(benchmark::State& state, const Data* data) {
   BallWalker walker(cycles);
   measure(state, static_cast<std::size_t>(data->mesh.face_count()), [&](std::size_t f) {
     benchmark::DoNotOptimize(
-        walker.tensor(static_cast<Index>(3 * f), data->domain.face_normals[f], data->radius));
+        walker.tensor(static_cast<Index>(3 * f), data->domain.face_normals[f], {data->radius}));
   });
 }
 

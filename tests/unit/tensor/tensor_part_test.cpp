@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -60,6 +61,13 @@ PolyMesh sheet_with_slivers() {
   return mesh;
 }
 
+/// All but one vertex within a ten thousandth of the diagonal, 12,000 faces.
+PolyMesh ball_with_a_far_vertex() {
+  PolyMesh mesh = sample(SampleKind::sphere, 12000, 0.25);
+  mesh.positions[0] *= 20000;
+  return mesh;
+}
+
 PolyMesh tetrahedron() {
   PolyMesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -83,12 +91,13 @@ const std::map<std::string, TriMesh>& meshes() {
   return kMeshes;
 }
 
-TensorField whole(const TriMesh& mesh, Length radius) {
+TensorField whole(const TriMesh& mesh, std::optional<Length> radius) {
   SilentObserver observer;
   return estimate_tensors(mesh, {radius}, observer).field;
 }
 
-std::vector<TensorPart> all_parts(const TriMesh& mesh, Length radius, std::int64_t parts) {
+std::vector<TensorPart> all_parts(const TriMesh& mesh, std::optional<Length> radius,
+                                  std::int64_t parts) {
   const LoadedMesh blocks(mesh);
   SilentObserver observer;
   std::vector<TensorPart> result;
@@ -144,6 +153,14 @@ TEST_P(TensorParts, MakeTheWholeForAnyRadius) {
 
 TEST_P(TensorParts, MakeTheWholeWhereThereAreManyOfThem) {
   expect_equal(merged(mesh_, all_parts(mesh_, percent(1), 24)), whole(mesh_, percent(1)), "24");
+}
+
+TEST(TensorPartsOfAFarVertex, MakeTheWholeWhereBallsShrink) {
+  const TriMesh mesh = support::plain_tri_mesh(ball_with_a_far_vertex());
+  for (const int parts : {1, 5}) {
+    expect_equal(merged(mesh, all_parts(mesh, std::nullopt, parts)), whole(mesh, std::nullopt),
+                 std::to_string(parts) + " parts");
+  }
 }
 
 TEST(TensorPartMemory, PartsKeepLittleMoreThanTheirShare) {

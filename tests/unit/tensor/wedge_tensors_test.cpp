@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "common/geometry/samples/samples.h"
 #include "stages/tensor/tensor.h"
 #include "tests/support/mesh_support.h"
 
@@ -27,25 +28,51 @@ TEST(WedgeTensors, DoNotSeeWhatFoldsOver) {
   const Index wedge = mesh.wedge_of(0);
   for (const double radius : {0.3, 0.6, 0.9, 1.2, 5.0}) {
     SilentObserver observer;
-    const WedgeTensors tensors = estimate_wedge_tensors(mesh, mesh.wedge_count(), radius, observer);
+    const WedgeTensors tensors =
+        estimate_wedge_tensors(mesh, mesh.wedge_count(), {radius}, observer);
     for (const auto entry : tensors.tensor[wedge]) EXPECT_NEAR(entry, 0, 1e-6) << radius;
   }
 }
 
-TEST(BallRadius, IsAsAskedFor) {
+// A ball of 1 % of the diagonal would hold half of the sphere, up to where it folds over; one that
+// shrinks holds less than a tenth, where a normal is (0, 0, 1) but for 0.1 in the mean square.
+TEST(WedgeTensors, SeeCurvatureBesideAVertexFarAway) {
+  SampleOptions options;
+  options.faces = 40000;
+  PolyMesh sphere = make_sample(SampleKind::sphere, options);
+  const Index last = sphere.vertex_count() - 1;
+  sphere.positions[last] *= 1000;
+  const TriMesh mesh = support::plain_tri_mesh(sphere);
+  const Index count = 1000;
+  SilentObserver observer;
+  const WedgeTensors tensors = estimate_wedge_tensors(
+      mesh, count, ball_rule({}, mesh.diagonal, mesh.face_count()), observer);
+  EXPECT_EQ(tensors.shrunk, count);
+  for (Index w = 0; w < count; ++w) {
+    const Vec3 p = mesh.positions[mesh.wedge_vertex[w]];
+    const auto& [xx, xy, xz, yy, yz, zz] = tensors.tensor[w];
+    const Mat3 tensor{{xx, xy, xz}, {xy, yy, yz}, {xz, yz, zz}};
+    EXPECT_NEAR(tensor.trace(), 2, 0.05) << "wedge " << w;
+    EXPECT_LT((tensor - (Mat3::Identity() - p * p.transpose())).norm(), 0.2) << "wedge " << w;
+  }
+}
+
+TEST(BallRule, IsAsAskedFor) {
   TensorOptions options;
   options.radius = percent(3);
-  EXPECT_DOUBLE_EQ(ball_radius(options, 2, 100'000'000), 0.06);
+  const BallRule rule = ball_rule(options, 2, 100'000'000);
+  EXPECT_DOUBLE_EQ(rule.radius, 0.06);
+  EXPECT_EQ(rule.most_faces, kNone);
 }
 
 // Faces in a ball: their number over the area of the surface, times that of the ball.
-TEST(BallRadius, KeepsTheNumberOfFacesInABallBounded) {
+TEST(BallRule, KeepsTheNumberOfFacesInABallBounded) {
   const auto faces_in_a_ball = [](Index faces) {
-    const double radius = ball_radius({}, 1, faces);
+    const double radius = ball_rule({}, 1, faces).radius;
     return faces * radius * radius;
   };
-  EXPECT_DOUBLE_EQ(ball_radius({}, 2, 12), 0.02);
-  EXPECT_DOUBLE_EQ(ball_radius({}, 2, 1'000'000), 0.02);
+  EXPECT_DOUBLE_EQ(ball_rule({}, 2, 12).radius, 0.02);
+  EXPECT_DOUBLE_EQ(ball_rule({}, 2, 1'000'000).radius, 0.02);
   for (const Index faces : {4'000'000, 16'000'000, 370'000'000}) {
     EXPECT_NEAR(faces_in_a_ball(faces), faces_in_a_ball(2'000'000), 1e-6) << faces;
   }

@@ -4,11 +4,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
 #include "common/geometry/mesh_measures.h"
 #include "tests/support/import_support.h"
+#include "tests/support/mesh_support.h"
 #include "tests/unit/trace/fields.h"
 
 namespace strake {
@@ -140,6 +142,31 @@ TEST(Grading, BoundsTheSlopeOnEveryEdgeAndTheAspectRatio) {
               spacing_for_curvature(plane.field.k_min[w], plane.tolerance, plane.limits.largest));
     EXPECT_LE(spacing.across[w],
               spacing_for_curvature(plane.field.k_max[w], plane.tolerance, plane.limits.largest));
+  }
+}
+
+// Almost all keys wait in one interval of the queue there: taken out in any order but that of their
+// values, each would be lowered, and taken out again, more often than there are keys.
+TEST(Grading, EndsWhereMostOfTheMeshIsTiny) {
+  constexpr double kScale = 1e-6;
+  SampleOptions options;
+  options.faces = 60000;
+  PolyMesh tiny = make_sample(SampleKind::plane, options);
+  for (Vec3& p : tiny.positions) p *= kScale;
+  const auto first = tiny.vertex_count();
+  for (const Vec3& p : {Vec3(1, 0, 0), Vec3(2, 0, 0), Vec3(1, 1, 0)}) tiny.positions.push_back(p);
+  tiny.add_face(std::array<Index, 3>{first, first + 1, first + 2});
+  const TriMesh mesh = support::plain_tri_mesh(tiny);
+  PrincipalField field = field_along(mesh, [](const Vec3&) { return Vec3(1, 0.4, 0); });
+  field.k_min[0] = field.k_max[0] = 1e9;  // from there a wave goes over all of it
+  SpacingLimits limits;
+  limits.smallest = 1e-12;
+  limits.largest = 0.5;
+  const Spacing spacing = SpacingModel(mesh, field).for_tolerance(1e-4 * kScale, limits);
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    const double step =
+        spacing.along[mesh.wedge_of(TriMesh::next(h))] - spacing.along[mesh.wedge_of(h)];
+    EXPECT_LE(std::abs(step), limits.gradation * edge_length(mesh, h) * (1 + 1e-12));
   }
 }
 
