@@ -1,26 +1,10 @@
 #include "stages/tensor/tensor.h"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "stages/tensor/wedge_tensors.h"
 
 namespace strake {
-namespace {
-
-constexpr Length kDefaultRadius = percent(1);
-constexpr double kMostFacesOfDefault = 2e6;
-constexpr Index kMostFacesOfBall =
-    4000;  // almost twice those in any ball of models up to 1 million
-
-}  // namespace
-
-BallRule ball_rule(const TensorOptions& options, double diagonal, Index faces) {
-  if (options.radius) return {options.radius->resolve(diagonal)};
-  const double share = kMostFacesOfDefault / std::max<Index>(faces, 1);
-  return {std::sqrt(std::min(1.0, share)) * kDefaultRadius.resolve(diagonal), kMostFacesOfBall};
-}
 
 TensorResult estimate_tensors(const TriMesh& mesh, const TensorOptions& options,
                               Observer& observer) {

@@ -7,24 +7,14 @@
 #include "common/core/options.h"
 #include "common/core/report.h"
 #include "common/core/tri_mesh.h"
-#include "stages/tensor/wedge_tensors.h"
 
 namespace strake {
 
 struct TensorOptions {
-  std::optional<Length> radius;  ///< of the averaging ball; default see `ball_rule`
+  std::optional<Length> radius;  ///< of the averaging ball; default: `ball_rule` in wedge_tensors.h
 
   OptionList declare();
 };
-
-/// Radius of the averaging balls, and how many faces they hold.
-///
-/// Where no radius is asked for it is 1 % of the diagonal. Beyond two million faces it falls with
-/// their edges, so that a ball does not hold more and more of them: time would grow with their
-/// square, to average away what such a scan shows. Nor does a ball hold more than some thousand
-/// faces, as it would where most of a mesh is small against its diagonal. \param diagonal  of the
-/// bounding box, model units
-BallRule ball_rule(const TensorOptions& options, double diagonal, Index faces);
 
 struct TensorResult {
   TensorField field;

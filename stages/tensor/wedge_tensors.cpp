@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 
 #include "common/geometry/frames.h"
 #include "common/geometry/mesh_measures.h"
@@ -13,6 +14,12 @@
 
 namespace strake {
 namespace {
+
+constexpr Length kDefaultRadius = percent(1);
+/// Of meshes whose balls have the default radius.
+constexpr double kMostFacesOfDefault = 2e6;
+/// Almost twice as many as in any ball of usual meshes of up to a million faces.
+constexpr Index kMostFacesOfBall = 4000;
 
 constexpr Index kBlock = 256;
 
@@ -32,6 +39,12 @@ std::vector<double> wedge_edge_lengths(const TriMesh& mesh) {
 }
 
 }  // namespace
+
+BallRule ball_rule(const TensorOptions& options, double diagonal, Index faces) {
+  if (options.radius) return {options.radius->resolve(diagonal)};
+  const double share = kMostFacesOfDefault / std::max<Index>(faces, 1);
+  return {std::sqrt(std::min(1.0, share)) * kDefaultRadius.resolve(diagonal), kMostFacesOfBall};
+}
 
 WedgeTensors estimate_wedge_tensors(const TriMesh& mesh, Index count, const BallRule& rule,
                                     Observer& observer) {

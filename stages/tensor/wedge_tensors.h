@@ -5,6 +5,7 @@
 
 #include "common/core/observer.h"
 #include "common/core/tri_mesh.h"
+#include "stages/tensor/tensor.h"
 
 namespace strake {
 
@@ -18,6 +19,15 @@ struct BallRule {
   double radius;             ///< model units
   Index most_faces = kNone;  ///< kNone: no ball shrinks
 };
+
+/// Radius of the averaging balls, and how many faces they hold.
+///
+/// Where no radius is asked for it is 1 % of the diagonal. Beyond two million faces it falls with
+/// their edges, so that a ball does not hold more and more of them: time would grow with their
+/// square, to average away what such a scan shows. Nor does a ball hold more than some thousand
+/// faces, as it would where most of a mesh is small against its diagonal.
+/// \param diagonal  of the bounding box, model units
+BallRule ball_rule(const TensorOptions& options, double diagonal, Index faces);
 
 struct WedgeTensors {
   std::vector<std::array<double, 6>> tensor;  ///< [count] as TensorField::tensor
