@@ -3,14 +3,16 @@
 // See parallel_for.h beside this file.
 
 #include <functional>
+#include <list>
 #include <map>
-#include <memory>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 namespace tbb {
 
-/// One value for each thread that asks, made when it first does.
+/// One value for each thread that asks, made when it first does. They are gone through one by one
+/// when no thread asks any more.
 template <class T>
 class enumerable_thread_specific {
  public:
@@ -18,19 +20,26 @@ class enumerable_thread_specific {
   explicit enumerable_thread_specific(Make make) : make_(std::move(make)) {}
 
   T& local() {
-    std::unique_ptr<T>* place = nullptr;
     {
       const std::lock_guard lock(guard_);
-      place = &values_[std::this_thread::get_id()];
+      const auto found = of_thread_.find(std::this_thread::get_id());
+      if (found != of_thread_.end()) return *found->second;
     }
-    if (!*place) *place = std::make_unique<T>(make_());
-    return **place;
+    T made = make_();
+    const std::lock_guard lock(guard_);
+    values_.push_back(std::move(made));
+    of_thread_[std::this_thread::get_id()] = &values_.back();
+    return values_.back();
   }
+
+  auto begin() { return values_.begin(); }
+  auto end() { return values_.end(); }
 
  private:
   std::function<T()> make_;
   std::mutex guard_;
-  std::map<std::thread::id, std::unique_ptr<T>> values_;
+  std::list<T> values_;
+  std::map<std::thread::id, T*> of_thread_;
 };
 
 }  // namespace tbb
