@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "stages/mesh/cell_change.h"
 #include "stages/mesh/cell_shape.h"
 #include "stages/mesh/simplify.h"
 
@@ -16,25 +17,6 @@ constexpr double kSplitPrice = 0.3;
 /// Price of taking an edge of the wanted length away; falls with the square of its length.
 constexpr double kCollapsePrice = 0.6;
 constexpr double kNever = -std::numeric_limits<double>::infinity();
-/// No face counts as worse than this, however thin it is now.
-constexpr double kWorstShape = 10;
-/// Faces may not turn by more than this.
-constexpr double kLeastTurnCosine = 0.5;
-
-/// Nodes that are about to move, and where to.
-class Moves {
- public:
-  void add(Index node, const Vec3& to) { moves_.emplace_back(node, to); }
-  [[nodiscard]] const Vec3* find(Index node) const {
-    for (const auto& [moved, to] : moves_) {
-      if (moved == node) return &to;
-    }
-    return nullptr;
-  }
-
- private:
-  std::vector<std::pair<Index, Vec3>> moves_;
-};
 
 Vec3 middle(const PolygonGraph& graph, Index dart) { return graph.split_position(dart, 0.5); }
 
@@ -42,21 +24,6 @@ double edge_ratio(const PolygonGraph& graph, Index dart, const EdgeLength& wante
   const DartGraph& g = graph.graph();
   return (graph.position(g.from(dart)) - graph.position(g.to(dart))).norm() / wanted(dart);
 }
-
-/// Penalty of a face after a change; infinite where it is concave or turned over.
-double changed_penalty(const Polygon& p, const Vec3& normal_before) {
-  const Vec3 normal = vector_area(p);
-  const double area = normal.norm();
-  if (!(normal.dot(normal_before) > kLeastTurnCosine * area * normal_before.norm())) {
-    return std::numeric_limits<double>::infinity();
-  }
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    if (is_reflex(p, i, normal / area)) return std::numeric_limits<double>::infinity();
-  }
-  return shape_penalty(p, normal_before);
-}
-
-double penalty_now(const Polygon& p) { return shape_penalty(p, vector_area(p)); }
 
 /// Gain of halving a cell between the middles of two edges, or from one to the opposite corner.
 double halving_gain(const PolygonGraph& graph, Index in, Index out) {
@@ -99,35 +66,6 @@ std::optional<Moves> merging_moves(const PolygonGraph& graph, const Chord& chord
     moves.add(b, to);
   }
   return moves;
-}
-
-/// A dart of each cell at an end of a rung.
-std::vector<Index> cells_at(const PolygonGraph& graph, const Chord& chord) {
-  std::vector<Index> names;
-  for (const Index rung : chord.rungs) {
-    for (const Index side : {rung, DartGraph::opposite(rung)}) {
-      Index d = side;
-      do {
-        if (!graph.is_hole(d)) names.push_back(graph.name_of_cell(d));
-        d = graph.graph().rotate_ccw(d);
-      } while (d != side);
-    }
-  }
-  std::sort(names.begin(), names.end());
-  names.erase(std::unique(names.begin(), names.end()), names.end());
-  return names;
-}
-
-/// The corners of a cell after some have moved, those that meet only once.
-Polygon moved_cell(const PolygonGraph& graph, Index cell, const Moves& moves) {
-  Polygon after;
-  for (const Index d : graph.cell(cell)) {
-    const Index node = graph.graph().from(d);
-    const Vec3* moved = moves.find(node);
-    const Vec3& at = moved != nullptr ? *moved : graph.position(node);
-    if (after.empty() || (after.back() != at && after.front() != at)) after.push_back(at);
-  }
-  return after;
 }
 
 }  // namespace
@@ -219,15 +157,13 @@ double collapse_gain(const PolygonGraph& graph, const Chord& chord) {
   if (chord.ends_outside) return kNever;
   const std::optional<Moves> moves = merging_moves(graph, chord);
   if (!moves) return kNever;
-  double gain = 0;
-  for (const Index cell : cells_at(graph, chord)) {
-    const Polygon before = corner_positions(graph, graph.cell(cell));
-    gain += std::min(penalty_now(before), kWorstShape);
-    const Polygon after = moved_cell(graph, cell, *moves);
-    if (after.size() > 2) gain -= changed_penalty(after, vector_area(before));
-    if (!(gain > kNever)) return kNever;
+  std::vector<Index> ends;
+  for (const Index rung : chord.rungs) {
+    ends.push_back(rung);
+    ends.push_back(DartGraph::opposite(rung));
   }
-  return gain;
+  return gain_of_moves(graph, cells_around(graph, ends), *moves,
+                       std::numeric_limits<double>::infinity());
 }
 
 std::size_t collapse_strip(PolygonGraph& graph, const Chord& chord) {

@@ -14,6 +14,7 @@
 #include "stages/mesh/partition.h"
 #include "stages/mesh/polygon_graph.h"
 #include "stages/mesh/pure_quads.h"
+#include "stages/mesh/regularise.h"
 #include "stages/mesh/simplify.h"
 
 namespace strake {
@@ -172,6 +173,7 @@ struct Cells {
   SimplifyCounts simplified;
   PartitionCounts divided;
   PairingCounts paired;
+  RegularisingCounts regularised;
   Index joined = 0;
   Index cut_pieces = 0;
 };
@@ -190,7 +192,7 @@ Cells form_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions& o
   observer.report("forming cells", 0.4);
   const Index cuts = reduce_to_lines(overlay);
   observer.report("simplifying cells", 0.6);
-  Cells cells{PolygonGraph(mesh, overlay), {}, {}, {}, 0, cuts};
+  Cells cells{PolygonGraph(mesh, overlay), {}, {}, {}, {}, 0, cuts};
   cells.simplified = simplify(
       cells.graph, [&](const SurfaceNode& node) { return local_size(mesh, lines, node); },
       kShortestEdge);
@@ -201,6 +203,7 @@ Cells form_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions& o
       cells.graph, [&](Index dart) { return wanted_length(mesh, lines, cells.graph, dart); },
       options.odd_price);
   if (options.pure_quads) cells.joined = join_odd_faces(cells.graph);
+  cells.regularised = regularise(cells.graph, options.valence_price);
   return cells;
 }
 
@@ -236,6 +239,8 @@ MeshResult mesh_lines(const TriMesh& mesh, const LineSet& lines, const MeshOptio
   report.set("mesh.divided_patches", static_cast<std::int64_t>(cells.paired.divided_patches));
   report.set("mesh.split_strips", static_cast<std::int64_t>(cells.paired.split_strips));
   report.set("mesh.collapsed_strips", static_cast<std::int64_t>(cells.paired.collapsed_strips));
+  report.set("mesh.redivided_quads", static_cast<std::int64_t>(cells.regularised.divided_patches));
+  report.set("mesh.closed_quads", static_cast<std::int64_t>(cells.regularised.closed_quads));
   report.set("mesh.joined_odd_faces", static_cast<std::int64_t>(cells.joined));
   check_result(mesh, result.quads.mesh, static_cast<Index>(options.max_sides), report);
   if (options.pure_quads && analyse(result.quads.mesh).quads != result.quads.mesh.face_count()) {

@@ -17,6 +17,13 @@ OptionList MeshOptions::declare() {
                "taken back to make quads; 0 leaves faces as the lines made them.",
        .min = 0,
        .max = 1000},
+      {.name = "valence-price",
+       .target = &valence_price,
+       .unit = "",
+       .help = "Price of an edge that a vertex has too many or too few: the higher, the more quads "
+               "are divided anew to make vertices of four; 0 leaves them.",
+       .min = 0,
+       .max = 1000},
       {.name = "pure-quads",
        .target = &pure_quads,
        .unit = "",

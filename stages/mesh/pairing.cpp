@@ -1,7 +1,10 @@
 #include "stages/mesh/pairing.h"
 
 #include <algorithm>
+#include <limits>
 
+#include "stages/mesh/cell_change.h"
+#include "stages/mesh/claimed_nodes.h"
 #include "stages/mesh/patch.h"
 
 namespace strake {
@@ -14,6 +17,8 @@ constexpr std::size_t kMostBetween = 2;
 constexpr double kLeastGain = 0.05;
 /// Shapes hardly gain more than two badly shaped odd faces cost.
 constexpr double kMostShapeGain = 2;
+/// Weight of the squared deviation of a degree from four, beside shape penalties of about 1.
+constexpr double kDegreePrice = 0.1;
 
 enum class ChangeKind : std::uint8_t { divide_patch, split_strip, collapse_strip };
 
@@ -29,7 +34,7 @@ struct Change {
 class Pairing {
  public:
   Pairing(PolygonGraph& graph, const EdgeLength& wanted, double price)
-      : graph_(graph), wanted_(wanted), price_(price) {}
+      : graph_(graph), wanted_(wanted), price_(price), claimed_(graph) {}
 
   PairingCounts run() {
     for (int round = 0; round < kMostRounds; ++round) {
@@ -98,21 +103,25 @@ class Pairing {
   void add_patch(const std::vector<Index>& cells, std::vector<Change>& found) const {
     std::optional<Patch> patch = join_cells(graph_, cells);
     if (!patch) return;
-    std::optional<Division> division = best_division(graph_, *patch);
+    const auto penalty = [&](Index dart, Index degree) {
+      if (graph_.rank(graph_.graph().from(dart)) != NodeRank::line) return 0.0;
+      return kDegreePrice * (degree - 4) * (degree - 4);
+    };
+    std::optional<Division> division =
+        best_division(graph_, *patch, penalty, std::numeric_limits<double>::infinity());
     if (!division) return;
-    const double gain = division->gain + 2 * price_;
+    const double gain = division->shape_gain + division->degree_gain + 2 * price_;
     if (!(gain > kLeastGain)) return;
     found.push_back({gain, ChangeKind::divide_patch, std::move(*patch), std::move(*division), {}});
   }
 
   /// Makes the changes that do not touch what an earlier one has changed. \return whether any
   bool make(const std::vector<Change>& changes) {
-    touched_.assign(graph_.node_count(), 0);
+    claimed_ = ClaimedNodes(graph_);
     bool any = false;
     for (const Change& change : changes) {
       if (!claim(change)) continue;
       apply(change);
-      touched_.resize(graph_.node_count(), 1);
       any = true;
     }
     return any;
@@ -120,39 +129,28 @@ class Pairing {
 
   [[nodiscard]] bool claim(const Change& change) {
     return change.chord.rungs.empty()
-               ? claim_origins(change.patch.outline)
+               ? claimed_.claim(change.patch.outline)
                : claim_cells(change.chord, change.kind == ChangeKind::collapse_strip);
-  }
-
-  /// Takes nodes for a change. \return false where one has been taken before in this round
-  [[nodiscard]] bool claim_origins(const std::vector<Index>& darts) {
-    const DartGraph& g = graph_.graph();
-    for (const Index d : darts) {
-      if (touched_[g.from(d)] != 0) return false;
-    }
-    for (const Index d : darts) touched_[g.from(d)] = 1;
-    return true;
   }
 
   /// Takes the corners of the cells along a chord, or of all cells at its rungs.
   [[nodiscard]] bool claim_cells(const Chord& chord, bool all) {
     const DartGraph& g = graph_.graph();
-    std::vector<Index> corners;
+    std::vector<Index> cells;
     for (const Index rung : chord.rungs) {
       // Where nothing has touched the ends, the rung and the cells at it are what they were.
-      if (touched_[g.from(rung)] != 0 || touched_[g.to(rung)] != 0) return false;
-      for (const Index side : {rung, DartGraph::opposite(rung)}) {
-        Index d = side;
-        do {
-          if (!graph_.is_hole(d)) {
-            const std::vector<Index> cell = graph_.cell(d);
-            corners.insert(corners.end(), cell.begin(), cell.end());
-          }
-          d = g.rotate_ccw(d);
-        } while (all && d != side);
-      }
+      if (claimed_.has(g.from(rung)) || claimed_.has(g.to(rung))) return false;
+      const std::vector<Index> sides = {rung, DartGraph::opposite(rung)};
+      const std::vector<Index> beside = all ? cells_around(graph_, sides) : sides;
+      cells.insert(cells.end(), beside.begin(), beside.end());
     }
-    return claim_origins(corners);
+    std::vector<Index> corners;
+    for (const Index dart : cells) {
+      if (graph_.is_hole(dart)) continue;
+      const std::vector<Index> cell = graph_.cell(dart);
+      corners.insert(corners.end(), cell.begin(), cell.end());
+    }
+    return claimed_.claim(corners);
   }
 
   void apply(const Change& change) {
@@ -175,7 +173,7 @@ class Pairing {
   PolygonGraph& graph_;
   const EdgeLength& wanted_;
   double price_;
-  std::vector<char> touched_;  ///< [nodes] in this round
+  ClaimedNodes claimed_;  ///< in this round
   PairingCounts counts_;
 };
 

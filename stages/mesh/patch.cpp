@@ -8,18 +8,18 @@
 namespace strake {
 namespace {
 
-/// Weight of the squared deviation of a valence from four, beside shape penalties of about 1.
-constexpr double kValencePrice = 0.1;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-double valence_penalty(Index degree) { return kValencePrice * (degree - 4) * (degree - 4); }
 
 /// The best division of a polygon into quads, by dynamic programming over the chords (i, j) that
 /// close the run of corners from i to j.
 class Divider {
  public:
-  Divider(const PolygonGraph& graph, const Patch& patch)
-      : graph_(graph), patch_(patch), p_(corner_positions(graph, patch.outline)) {
+  Divider(const PolygonGraph& graph, const Patch& patch, const DegreePenalty& penalty, double worst)
+      : graph_(graph),
+        patch_(patch),
+        penalty_(penalty),
+        worst_(worst),
+        p_(corner_positions(graph, patch.outline)) {
     normal_ = vector_area(p_);
     const std::size_t n = p_.size();
     base_degree_.resize(n);
@@ -36,8 +36,7 @@ class Divider {
 
   std::optional<Division> run() {
     const std::size_t n = p_.size();
-    double after = best(0, n - 1);
-    if (!(after < kInfinity)) return std::nullopt;
+    if (!(best(0, n - 1) < kInfinity)) return std::nullopt;
     Division division;
     collect(0, n - 1, division.diagonals);
     std::vector<Index> degree = base_degree_;
@@ -45,15 +44,12 @@ class Divider {
       ++degree[i];
       ++degree[j];
     }
-    double before = 0;
-    after = shapes(0, n - 1);
     for (std::size_t i = 0; i < n; ++i) {
-      if (graph_.rank(node_at(i)) != NodeRank::line) continue;
-      if (degree[i] < 3) return std::nullopt;
-      before += valence_penalty(graph_.degree(patch_.outline[i]));
-      after += valence_penalty(degree[i]);
+      if (degree[i] < 3 && graph_.rank(node_at(i)) == NodeRank::line) return std::nullopt;
+      division.degree_gain += penalty_(patch_.outline[i], graph_.degree(patch_.outline[i])) -
+                              penalty_(patch_.outline[i], degree[i]);
     }
-    division.gain = shapes_now() + before - after;
+    division.shape_gain = shapes_now() - shapes(0, n - 1);
     return division;
   }
 
@@ -72,18 +68,19 @@ class Divider {
     for (std::size_t k = 0; k < 4; ++k) {
       if (is_reflex(q, k, n / length)) return kInfinity;
     }
-    return shape_penalty(q, normal_);
+    const double penalty = shape_penalty(q, normal_);
+    return penalty <= worst_ ? penalty : kInfinity;
   }
 
-  /// Price of a diagonal for the valences at its ends; infinite where there is such an edge.
+  /// Price of a diagonal for the degrees of its ends; infinite where there is such an edge.
   [[nodiscard]] double diagonal(std::size_t i, std::size_t j) const {
     if (node_at(i) == node_at(j)) return kInfinity;
     const Index other = graph_.find_edge(patch_.outline[i], node_at(j));
     if (other != kNone && !is_inner(other)) return kInfinity;
     double price = 0;
     for (const std::size_t end : {i, j}) {
-      if (graph_.rank(node_at(end)) != NodeRank::line) continue;
-      price += valence_penalty(base_degree_[end] + 1) - valence_penalty(base_degree_[end]);
+      price += penalty_(patch_.outline[end], base_degree_[end] + 1) -
+               penalty_(patch_.outline[end], base_degree_[end]);
     }
     return price;
   }
@@ -153,6 +150,8 @@ class Divider {
 
   const PolygonGraph& graph_;
   const Patch& patch_;
+  const DegreePenalty& penalty_;
+  double worst_;
   Polygon p_;
   Vec3 normal_ = Vec3::Zero();
   std::vector<Index> base_degree_;  ///< [n] without the edges inside
@@ -200,8 +199,9 @@ std::optional<Patch> join_cells(const PolygonGraph& graph, const std::vector<Ind
   return patch;
 }
 
-std::optional<Division> best_division(const PolygonGraph& graph, const Patch& patch) {
-  return Divider(graph, patch).run();
+std::optional<Division> best_division(const PolygonGraph& graph, const Patch& patch,
+                                      const DegreePenalty& penalty, double worst) {
+  return Divider(graph, patch, penalty, worst).run();
 }
 
 void divide(PolygonGraph& graph, const Patch& patch, const Division& division) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -19,15 +20,21 @@ struct Patch {
 /// \return nothing where they do not make such a polygon, or one with an odd number of sides
 std::optional<Patch> join_cells(const PolygonGraph& graph, const std::vector<Index>& cells);
 
+/// What it costs that so many edges leave from(dart), beside shape penalties (see shape_penalty).
+using DegreePenalty = std::function<double(Index dart, Index degree)>;
+
 /// A way to divide a patch into quads.
 struct Division {
   std::vector<std::pair<std::size_t, std::size_t>> diagonals;  ///< positions in the outline
-  double gain = 0;  ///< by how much shape and valences get better
+  double shape_gain = 0;   ///< by how much the shapes of the faces get better
+  double degree_gain = 0;  ///< likewise, the degrees of the nodes
 };
 
-/// The division of a patch into quads by diagonals that has the best shapes and valences.
+/// The division of a patch into quads by diagonals that has the best shapes and degrees.
+/// \param worst  no face has a larger penalty than this
 /// \return nothing where every division has a reflex corner, a double edge or a vertex of valence 2
-std::optional<Division> best_division(const PolygonGraph& graph, const Patch& patch);
+std::optional<Division> best_division(const PolygonGraph& graph, const Patch& patch,
+                                      const DegreePenalty& penalty, double worst);
 
 /// Replaces the edges inside a patch by the diagonals of a division.
 void divide(PolygonGraph& graph, const Patch& patch, const Division& division);

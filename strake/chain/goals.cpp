@@ -20,12 +20,12 @@ namespace {
 /// Error of a wanted count above which the user is told.
 constexpr double kCountTolerance = 0.05;
 constexpr std::int64_t kFeedbackRounds = 1;
-/// Share of a wanted count that lines leave for dividing the cells that are worst: for one quad of
-/// a hundred it takes a twelfth off the errors, and an eighth off the largest.
-constexpr double kLeftForWorst = 0.015;
-/// Share that dividing may add to what lines give, each vertex costing a quad; more only where the
-/// count would be missed otherwise.
-constexpr double kMostDivided = 0.03;
+/// Share of a wanted count that lines leave for dividing the cells that are worst. Half of it
+/// already takes a twelfth off the errors, and an eighth off the largest.
+constexpr double kLeftForWorst = 0.01;
+/// Share that dividing may add to what lines give, as each vertex costs a quad and makes others
+/// irregular; more only where the count would be missed otherwise.
+constexpr double kMostDivided = 0.01;
 /// Share of the way to a density that is enough, and rounds that may be spent on it.
 constexpr double kDensityReached = 0.9;
 constexpr int kMostDensityRounds = 5;

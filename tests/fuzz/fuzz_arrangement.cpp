@@ -86,6 +86,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   strake::MeshOptions options;
   options.max_sides = data.ConsumeIntegralInRange(4, 9);
   options.odd_price = data.ConsumeBool() ? 1 : 0;
+  options.valence_price = data.ConsumeBool() ? 1 : 0;
   const double spacing = small(data);
   strake::LineSet lines;
   while (data.remaining_bytes() > 0 && lines.line_count() < kMostLines) add_line(data, mesh, lines);
