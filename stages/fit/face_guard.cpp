@@ -18,20 +18,12 @@ constexpr double kSameAngle = 1e-9;
 /// Pairs that cross, for each face: results that only fold over have less than one.
 constexpr std::size_t kTangledPairs = 8;
 
-FaceTriangles triangulate(const PolyMesh& mesh, const std::vector<Vec3>& positions) {
-  FaceTriangles triangles;
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    triangulate_face(positions, mesh.face(f), triangles.corners);
-    triangles.face.resize(triangles.corners.size(), f);
-  }
-  return triangles;
-}
-
 }  // namespace
 
 FaceGuard::FaceGuard(const PolyMesh& mesh, const VertexPlaces& places)
     : mesh_(mesh),
-      allowed_(find_crossing_faces(places.positions(), triangulate(mesh, places.positions()))),
+      allowed_(
+          find_crossing_faces(places.positions(), triangulate_faces(mesh, places.positions()))),
       looked_at_(places.positions()) {}
 
 bool FaceGuard::is_tangled() const {
@@ -82,7 +74,7 @@ std::vector<std::uint8_t> FaceGuard::newly_crossing(const VertexPlaces& places) 
   }
   looked_at_ = places.positions();
   std::vector<std::uint8_t> crossing(mesh_.positions.size(), 0);
-  const FaceTriangles triangles = triangulate(mesh_, looked_at_);
+  const FaceTriangles triangles = triangulate_faces(mesh_, looked_at_);
   for (const auto& pair : find_crossing_faces(looked_at_, triangles, has_moved, allowed_)) {
     for (const Index f : pair) {
       for (const Index v : mesh_.face(f)) crossing[v] = 1;

@@ -53,6 +53,12 @@ constexpr int kAllRounds = std::numeric_limits<int>::max();
 /// Rounds of fitting before errors are measured: enough to see where they will stay.
 constexpr int kMeasuringFitRounds = 3;
 
+/// How many vertices or faces lines are to give.
+struct LineAim {
+  Counted counted;
+  std::int64_t count;
+};
+
 std::int64_t count_of(const Session& session, const char* port, Counted counted) {
   const PolyMesh& mesh = session.get<QuadMesh>(port).mesh;
   return counted == Counted::vertices ? mesh.vertex_count() : mesh.face_count();
@@ -76,12 +82,13 @@ void fit_for_measuring(Session& session, const GoalStages& stages) {
 
 /// Wants other distances between lines where the present result is too far from the surface, and
 /// corrects the scale of all of them by the count.
-void feed_back(Session& session, const GoalStages& stages, Counted counted, std::int64_t aim) {
+void feed_back(Session& session, const GoalStages& stages, const LineAim& aim) {
   fit_for_measuring(session, stages);
   session.run(stages.size);
   const Option& scale = stages.trace.option("spacing-scale");
-  const double excess = kFeedbackExcess * static_cast<double>(count_of(session, "quads", counted)) /
-                        static_cast<double>(aim);
+  const double excess = kFeedbackExcess *
+                        static_cast<double>(count_of(session, "quads", aim.counted)) /
+                        static_cast<double>(aim.count);
   const double corrected = std::stod(scale.value()) * std::sqrt(excess);
   scale.parse_into(fmt::format("{}", std::clamp(corrected, scale.min, scale.max)));
 }
@@ -127,12 +134,12 @@ class BestMatch {
 /// Feeds errors back until the vertices are as the density wants them, as nearly as they get. Lines
 /// go on where their neighbours are nearer than wanted, so its distances alone do little.
 void follow_density(Session& session, const GoalStages& stages, const DensityMatch& match,
-                    Counted counted, std::int64_t aim) {
+                    const LineAim& aim) {
   BestMatch best(match, stages.trace.option("spacing-scale"));
   for (int round = 0;; ++round) {
     trace_and_mesh(session, stages);
     if (best.offer(session) >= kDensityReached || round == kMostDensityRounds) break;
-    feed_back(session, stages, counted, aim);
+    feed_back(session, stages, aim);
   }
   best.take(session);
 }
@@ -143,12 +150,11 @@ bool only_quads(const GoalStages& stages) {
 }
 
 /// Looks for the scale of distances that gives the count. Where all are too far above or below it,
-/// as on coarse meshes, takes what is below: cells can be divided. \param wanted  to tell the user
+/// as on coarse meshes, takes what is below: cells can be divided.
 /// \pre traced and meshed at the present scale
-void search_scale(Session& session, const GoalStages& stages, Counted counted, std::int64_t aim,
-                  std::int64_t wanted) {
+void search_scale(Session& session, const GoalStages& stages, const LineAim& aim) {
   const Option& option = stages.trace.option("spacing-scale");
-  CountSearch search(aim, std::stod(option.value()), option.min, option.max);
+  CountSearch search(aim.count, std::stod(option.value()), option.min, option.max);
   struct Found {
     Session session;
     CountSearch::Trial trial;
@@ -164,11 +170,13 @@ void search_scale(Session& session, const GoalStages& stages, Counted counted, s
       session.say(std::string("warning: gave up correcting the count: ") + error.what());
       break;
     }
-    const std::int64_t count = count_of(session, "quads", counted);
-    session.say(fmt::format("{} {} so far, {} wanted", count, name_of(counted), wanted));
+    const std::int64_t count = count_of(session, "quads", aim.counted);
+    session.say(
+        fmt::format("{} {} by lines, {} wanted of them", count, name_of(aim.counted), aim.count));
     search.record(*scale, count);
     if (search.best().scale == *scale) best = {session, search.best()};
-    if (count <= aim && (!below || count > below->trial.count)) below = {session, {*scale, count}};
+    if (count <= aim.count && (!below || count > below->trial.count))
+      below = {session, {*scale, count}};
   }
   const bool is_missed = search.error(search.best().count) > kCountTolerance;
   const Found& chosen = is_missed && below && !only_quads(stages) ? *below : best;
@@ -178,11 +186,11 @@ void search_scale(Session& session, const GoalStages& stages, Counted counted, s
 
 /// Looks for the count, and feeds errors back again where the lines found follow the density less.
 void search_with_density(Session& session, const GoalStages& stages, const DensityMatch& match,
-                         Counted counted, std::int64_t aim, std::int64_t wanted) {
+                         const LineAim& aim) {
   BestMatch best(match, stages.trace.option("spacing-scale"));
   for (int search = 0; search < kMostDensitySearches; ++search) {
-    if (search > 0) feed_back(session, stages, counted, aim);
-    search_scale(session, stages, counted, aim, wanted);
+    if (search > 0) feed_back(session, stages, aim);
+    search_scale(session, stages, aim);
     if (std::abs(best.offer(session) - 1) <= kDensityMissed) break;
   }
   best.take(session);
@@ -262,17 +270,17 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
                        std::int64_t wanted, std::optional<std::int64_t> feedback_rounds) {
   // A density says where vertices go, not the errors.
   const double left = only_quads(stages) || session.has("density") ? 0 : kLeftForWorst;
-  const std::int64_t aim = std::llround((1 - left) * static_cast<double>(wanted));
+  const LineAim aim{counted, std::llround((1 - left) * static_cast<double>(wanted))};
   if (session.has("density") && !feedback_rounds) {
     const DensityMatch match = match_density(session, stages);
-    follow_density(session, stages, match, counted, aim);
-    search_with_density(session, stages, match, counted, aim, wanted);
+    follow_density(session, stages, match, aim);
+    search_with_density(session, stages, match, aim);
   } else {
     for (std::int64_t round = 0; round < feedback_rounds.value_or(kFeedbackRounds); ++round) {
       trace_and_mesh(session, stages);
-      feed_back(session, stages, counted, aim);
+      feed_back(session, stages, aim);
     }
-    search_scale(session, stages, counted, aim, wanted);
+    search_scale(session, stages, aim);
   }
   session.keep(stages.trace);
   session.keep(stages.mesh);

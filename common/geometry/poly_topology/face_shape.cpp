@@ -133,6 +133,10 @@ void triangulate_face(std::span<const Vec3> positions, std::span<const Index> fa
 }
 
 FaceTriangles triangulate_faces(const PolyMesh& mesh) {
+  return triangulate_faces(mesh, mesh.positions);
+}
+
+FaceTriangles triangulate_faces(const PolyMesh& mesh, std::span<const Vec3> positions) {
   FaceTriangles result;
   const std::size_t faces = static_cast<std::size_t>(mesh.face_count());
   const std::size_t expected =
@@ -140,7 +144,7 @@ FaceTriangles triangulate_faces(const PolyMesh& mesh) {
   result.corners.reserve(expected);
   result.face.reserve(expected);
   for (Index f = 0; f < mesh.face_count(); ++f) {
-    triangulate_face(mesh.positions, mesh.face(f), result.corners);
+    triangulate_face(positions, mesh.face(f), result.corners);
     result.face.resize(result.corners.size(), f);
   }
   return result;

@@ -39,5 +39,7 @@ struct FaceTriangles {
 
 /// Splits every face of a mesh by `triangulate_face`.
 FaceTriangles triangulate_faces(const PolyMesh& mesh);
+/// Likewise, with its vertices elsewhere. \param positions  [V]
+FaceTriangles triangulate_faces(const PolyMesh& mesh, std::span<const Vec3> positions);
 
 }  // namespace strake

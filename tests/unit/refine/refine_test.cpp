@@ -272,12 +272,8 @@ TEST(Refine, DoesNotMakeFacesCrossForACount) {
     options.vertices = vertices;
     const PolyMesh result = refined(c, options).mesh;
     EXPECT_EQ(result.vertex_count(), vertices) << "another cell is divided instead";
-    FaceTriangles triangles;
-    for (Index f = 0; f < result.face_count(); ++f) {
-      triangulate_face(result.positions, result.face(f), triangles.corners);
-      triangles.face.resize(triangles.corners.size(), f);
-    }
-    EXPECT_TRUE(find_crossing_faces(result.positions, triangles).empty()) << vertices;
+    EXPECT_TRUE(find_crossing_faces(result.positions, triangulate_faces(result)).empty())
+        << vertices;
   }
 }
 
