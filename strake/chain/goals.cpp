@@ -57,6 +57,7 @@ constexpr int kMeasuringFitRounds = 3;
 struct LineAim {
   Counted counted;
   std::int64_t count;
+  std::int64_t wanted;  ///< by the user, of lines and of the cells that are divided
 };
 
 std::int64_t count_of(const Session& session, const char* port, Counted counted) {
@@ -171,8 +172,7 @@ void search_scale(Session& session, const GoalStages& stages, const LineAim& aim
       break;
     }
     const std::int64_t count = count_of(session, "quads", aim.counted);
-    session.say(
-        fmt::format("{} {} by lines, {} wanted of them", count, name_of(aim.counted), aim.count));
+    session.say(fmt::format("{} {} so far, {} wanted", count, name_of(aim.counted), aim.wanted));
     search.record(*scale, count);
     if (search.best().scale == *scale) best = {session, search.best()};
     if (count <= aim.count && (!below || count > below->trial.count))
@@ -270,7 +270,7 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
                        std::int64_t wanted, std::optional<std::int64_t> feedback_rounds) {
   // A density says where vertices go, not the errors.
   const double left = only_quads(stages) || session.has("density") ? 0 : kLeftForWorst;
-  const LineAim aim{counted, std::llround((1 - left) * static_cast<double>(wanted))};
+  const LineAim aim{counted, std::llround((1 - left) * static_cast<double>(wanted)), wanted};
   if (session.has("density") && !feedback_rounds) {
     const DensityMatch match = match_density(session, stages);
     follow_density(session, stages, match, aim);
