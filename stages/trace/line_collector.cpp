@@ -6,6 +6,12 @@
 namespace strake {
 namespace {
 
+/// Queries that failed lines from one face may cost, beside twice those of all lines found. Real
+/// meshes stay below half of it; a face that is hundreds of line distances long, where lines end
+/// before they cross two edges, would go on a thousand times as long.
+constexpr std::int64_t kMostFailedQueries = 100'000;
+constexpr std::int64_t kCostlyDraft = 256;  ///< queries from which a failed line is counted
+
 Seed seed_of(const Coverage::Gap& gap) {
   Seed seed;
   seed.face = gap.face;
@@ -40,17 +46,29 @@ void LineCollector::add(const TracedLine& line) {
 void LineCollector::grow(const std::vector<Seed>& seeds) {
   std::deque<Seed> queue(seeds.begin(), seeds.end());
   while (!queue.empty()) {
-    const LineDraft draft = tracer_.trace(queue.front());
+    const Seed seed = queue.front();
     queue.pop_front();
+    if (!seed.fills_gap && is_given_up(seed.face)) continue;
+    const LineDraft draft = tracer_.trace(seed);
     query_count_ += draft.query_count;
     // Also while gaps are filled, so that a run can be interrupted at any time.
     if (++tried_ % 64 == 0) observer_.report(phase_, finished_.coverage().covered_share());
     finished_.add(draft, lines_.line_count());
-    if (!draft.is_line) continue;
+    if (!draft.is_line) {
+      if (draft.query_count >= kCostlyDraft) failed_queries_[seed.face] += draft.query_count;
+      continue;
+    }
+    found_queries_ += draft.query_count;
     add(draft.line);
     queue.insert(queue.end(), draft.spawned.begin(), draft.spawned.end());
   }
   finished_.mark_covered();
+}
+
+bool LineCollector::is_given_up(Index face) const {
+  const auto failed = failed_queries_.find(face);
+  return failed != failed_queries_.end() &&
+         failed->second > kMostFailedQueries + 2 * found_queries_;
 }
 
 void LineCollector::saturate() {

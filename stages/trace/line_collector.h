@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include "common/core/observer.h"
@@ -32,6 +33,9 @@ class LineCollector {
   [[nodiscard]] std::int64_t query_count() const { return query_count_; }
 
  private:
+  /// Whether seeds in a face are left to `saturate`, which tries each place once: too many failed.
+  [[nodiscard]] bool is_given_up(Index face) const;
+
   const TraceDomain& domain_;
   TracerSettings settings_;
   FinishedLines finished_;
@@ -40,6 +44,8 @@ class LineCollector {
   LineSet lines_;
   std::size_t tried_ = 0;
   std::int64_t query_count_ = 0;
+  std::int64_t found_queries_ = 0;                          ///< those that lines took
+  std::unordered_map<Index, std::int64_t> failed_queries_;  ///< those that costly failures took
   const char* phase_ = "tracing lines";
 };
 
