@@ -6,7 +6,7 @@
 namespace strake {
 namespace {
 
-/// Queries that failed lines from one face may cost, beside twice those of all lines found. Real
+/// Queries that failed lines from one face may cost, beside those of all lines found. Real
 /// meshes stay below half of it; a face that is hundreds of line distances long, where lines end
 /// before they cross two edges, would go on a thousand times as long.
 constexpr std::int64_t kMostFailedQueries = 100'000;
@@ -68,7 +68,7 @@ void LineCollector::grow(const std::vector<Seed>& seeds) {
 bool LineCollector::is_given_up(Index face) const {
   const auto failed = failed_queries_.find(face);
   return failed != failed_queries_.end() &&
-         failed->second > kMostFailedQueries + 2 * found_queries_;
+         failed->second > kMostFailedQueries + found_queries_;
 }
 
 void LineCollector::saturate() {
