@@ -67,8 +67,7 @@ void LineCollector::grow(const std::vector<Seed>& seeds) {
 
 bool LineCollector::is_given_up(Index face) const {
   const auto failed = failed_queries_.find(face);
-  return failed != failed_queries_.end() &&
-         failed->second > kMostFailedQueries + found_queries_;
+  return failed != failed_queries_.end() && failed->second > kMostFailedQueries + found_queries_;
 }
 
 void LineCollector::saturate() {
