@@ -26,7 +26,7 @@ using strake::Vec3;
 
 /// Of one processor, slowed down up to eightyfold by sanitizers and counters: seconds as a rule.
 /// Lines in faces that are hundreds of their distances long have taken 280, and 4 without both.
-constexpr double kMostSeconds = 800;
+constexpr double kMostSeconds = 400;
 
 /// Whoever takes too long has hung.
 class Watchdog : public strake::StageObserver {
