@@ -2,13 +2,13 @@
 """Remeshes the collection of test models and judges every result with an independent meter.
 
     check_corpus.py SUITE --strake PROGRAM [--models FOLDER] [--meter PROGRAM] [--count N]
-                    [--slower FACTOR] [--most-bytes N] [NAME...]
+                    [--slower FACTOR] [--most-bytes N] [--most-vertices N] [--tolerance SHARE] [NAME...]
 
 Suites:
   default  every manifold model of scan, cad, genus and open, with strake's defaults: the same
            topology, an oriented manifold, at most 5 sides, few concave faces
   tenth    the same with a tenth of the input's vertices wanted, which must be met within 10 %
-  tolerance  models of up to 3600 vertices, also of polygons, with a tolerance of 0.3 %: the same
+  tolerance  clean models, also of polygons, with --tolerance, a share of the diagonal: the same
            topology, and no place farther off
   quality  quads and distance at five published settings
   dirty    every broken file: a sound result, or a refusal that says why; never a crash
@@ -47,13 +47,11 @@ ALL_CLEAN = (*CATEGORIES, "poly", "large")
 PARALLEL = 2
 
 MOST_CONCAVE_PERCENT = 0.5
-TOLERANCE = 0.003  # share of the diagonal
-MOST_VERTICES_WITH_TOLERANCE = 3600
 COUNT_TOLERANCE = 0.1
 # Seconds of processor time for one model, which other work on the machine does not change; and how
 # much longer it may take by the clock.
 TIME_LIMIT = {"default": 300, "tenth": 300, "quality": 300, "dirty": 60, "adversarial": 20,
-              "tolerance": 120, "all": 120}
+              "tolerance": 300, "all": 120}
 CLOCK_FACTOR = 5
 MEMORY_LIMIT = 2000  # MB of the largest process
 
@@ -120,11 +118,12 @@ def concave_percent(candidate):
 
 
 class Checker:
-    def __init__(self, suite, strake, meter, scratch, slower=1):
-        self.suite = suite
-        self.time_limit = slower * TIME_LIMIT[suite]
-        self.strake = strake
-        self.meter = meter
+    def __init__(self, arguments, scratch):
+        self.suite = arguments.suite
+        self.time_limit = arguments.slower * TIME_LIMIT[arguments.suite]
+        self.tolerance = arguments.tolerance if arguments.suite == "tolerance" else None
+        self.strake = arguments.strake
+        self.meter = arguments.meter
         self.scratch = scratch
 
     def check(self, case):
@@ -151,8 +150,8 @@ class Checker:
                    "--threads", "1"]
         if case.wanted:
             command += ["--vertices", str(case.wanted)]
-        if self.suite == "tolerance":
-            command += ["--tolerance", f"{100 * TOLERANCE}%"]
+        if self.tolerance:
+            command += ["--tolerance", f"{100 * self.tolerance}%"]
         limit = self.time_limit
         limited = ["timeout", "-s", "KILL", str(CLOCK_FACTOR * limit),
                    "sh", "-c", 'ulimit -t "$0" && exec "$@"', str(limit), *command]
@@ -202,9 +201,9 @@ class Checker:
         self.judge_against_input(case, result)
         if self.suite == "quality":
             self.judge_quality(case, result)
-        if self.suite == "tolerance" and case.measures["distance"]["hausdorff"] > TOLERANCE:
+        if self.tolerance and case.measures["distance"]["hausdorff"] > self.tolerance:
             case.faults.append(f"{case.measures['distance']['hausdorff']:.3g} of the diagonal away, "
-                               f"not above {TOLERANCE} is wanted")
+                               f"not above {self.tolerance} is wanted")
 
     def judge_against_input(self, case, result):
         source = case.measures["reference"]
@@ -217,7 +216,7 @@ class Checker:
             if table != seen:
                 case.faults.append(f"the input has topology {seen}, MANIFEST.md says {table}")
         concave = concave_percent(result)
-        if self.suite != "tolerance" and concave > MOST_CONCAVE_PERCENT:
+        if not self.tolerance and concave > MOST_CONCAVE_PERCENT:
             case.faults.append(f"{concave:.2f} % of the faces are concave")
         if case.wanted and abs(result["vertices"] - case.wanted) > COUNT_TOLERANCE * case.wanted:
             case.faults.append(f"{result['vertices']} vertices instead of {case.wanted}")
@@ -255,8 +254,7 @@ def cases_of(suite, folder):
     listed = models.read_manifest(folder)
     if suite == "tolerance":
         return [Case(model.path, model=model) for model in listed
-                if model.category in (*CATEGORIES, "poly")
-                and model.vertices <= MOST_VERTICES_WITH_TOLERANCE]
+                if model.category in (*CATEGORIES, "poly")]
     sound = [model for model in listed if model.category in CATEGORIES]
     return [Case(model.path, model.vertices // 10 if suite == "tenth" else 0, model=model)
             for model in sound]
@@ -274,6 +272,9 @@ def parse_arguments():
     parser.add_argument("--slower", type=int, default=1,
                         help="factor on time limits, for programs built with sanitizers")
     parser.add_argument("--most-bytes", type=int, help="only models of files up to that size")
+    parser.add_argument("--most-vertices", type=int, help="only listed models of up to so many")
+    parser.add_argument("--tolerance", type=float, default=0.003,
+                        help="of the suite of that name, as a share of the diagonal")
     return parser.parse_args()
 
 
@@ -290,11 +291,12 @@ def main():
             cases = [case for case in cases if any(name in case.name for name in arguments.names)]
         if arguments.most_bytes:
             cases = [case for case in cases if case.path.stat().st_size <= arguments.most_bytes]
+        if arguments.most_vertices:
+            cases = [case for case in cases if case.model and case.model.vertices <= arguments.most_vertices]
         if not cases:
             print("check_corpus: error: no model of that name", file=sys.stderr)
             return 2
-        code = check_all(cases, Checker(arguments.suite, arguments.strake, arguments.meter, scratch, arguments.slower),
-                         arguments.keep)
+        code = check_all(cases, Checker(arguments, scratch), arguments.keep)
         if arguments.table:
             text = arguments.table.read_text(encoding="utf-8")
             arguments.table.write_text(
