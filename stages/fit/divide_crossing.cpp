@@ -14,19 +14,14 @@
 #include "common/geometry/face_crossings/face_crossings.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_edges.h"
+#include "stages/fit/mendable_crossings.h"
 
 namespace strake::fitting {
 namespace {
 
-constexpr double kLeastAngle = 5 * std::numbers::pi / 180;
-/// What passes through more faces does so however it is divided: sheets on top of each other. So
-/// does a surface of which more than this share of the faces cross, and more than so many.
+constexpr double kLeastAngle = 1 * std::numbers::pi / 180;
+/// What passes through more faces does so however it is divided: sheets on top of each other.
 constexpr int kMostCrossings = 8;
-constexpr double kLargestShare = 0.1;
-constexpr std::size_t kFewCrossings = 100;
-/// Distance from a plane, as a share of its size, up to which a face covers the same points however
-/// it is divided.
-constexpr double kFlat = 1e-9;
 
 using Polygon = std::vector<Index>;
 using Parts = std::array<Polygon, 2>;
@@ -43,19 +38,13 @@ class Division {
   Index run() {
     Index divided = 0;
     std::vector<int> crossed(parts_.size(), 0);
-    const auto pairs = find_crossing_faces(mesh_.positions, triangles_);
+    const auto pairs = mendable_crossings(mesh_, mesh_.positions);
     for (const auto& pair : pairs) {
       for (const Index f : pair) ++crossed[f];
     }
-    const auto faces =
-        static_cast<double>(std::ranges::count_if(crossed, [](int n) { return n > 0; }));
-    if (pairs.size() > kFewCrossings &&
-        faces > kLargestShare * static_cast<double>(crossed.size())) {
-      return 0;
-    }
     for (const auto& pair : pairs) {
       for (const Index f : pair) {
-        if (parts_[f].has_value() || crossed[f] > kMostCrossings || is_flat(f)) continue;
+        if (parts_[f].has_value() || crossed[f] > kMostCrossings) continue;
         if (divide(f)) ++divided;
       }
     }
@@ -124,19 +113,6 @@ class Division {
       if (angle_between(ahead, back) < kLeastAngle) return false;
     }
     return true;
-  }
-
-  [[nodiscard]] bool is_flat(Index f) const {
-    const std::span<const Index> face = mesh_.face(f);
-    const std::vector<Vec3>& p = mesh_.positions;
-    const Vec3 normal = newell_normal(p, face).normalized();
-    double longest = 0;
-    double farthest = 0;
-    for (const Index v : face) {
-      longest = std::max(longest, (p[v] - p[face[0]]).norm());
-      farthest = std::max(farthest, std::abs((p[v] - p[face[0]]).dot(normal)));
-    }
-    return farthest <= kFlat * longest;
   }
 
   /// Divides a face where that lessens its crossings.

@@ -52,15 +52,17 @@ void FaceGuard::set_start(const VertexPlaces& places) {
   for (Index f = 0; f < mesh_.face_count(); ++f) start_[f] = form(places, f);
 }
 
+bool FaceGuard::is_spoilt(const VertexPlaces& places, Index face) const {
+  const Form now = form(places, face);
+  const Form& start = start_[face];
+  return (now.is_concave && !start.is_concave) || (now.faces_away && !start.faces_away) ||
+         (now.least_angle < kSmallAngle && now.least_angle < start.least_angle - kSameAngle);
+}
+
 std::vector<std::uint8_t> FaceGuard::spoilt(const VertexPlaces& places) const {
   std::vector<std::uint8_t> spoilt(mesh_.positions.size(), 0);
   for (Index f = 0; f < mesh_.face_count(); ++f) {
-    const Form now = form(places, f);
-    const Form& start = start_[f];
-    if ((!now.is_concave || start.is_concave) && (!now.faces_away || start.faces_away) &&
-        (now.least_angle >= kSmallAngle || now.least_angle >= start.least_angle - kSameAngle)) {
-      continue;
-    }
+    if (!is_spoilt(places, f)) continue;
     for (const Index v : mesh_.face(f)) spoilt[v] = 1;
   }
   return spoilt;

@@ -25,7 +25,9 @@ class FaceGuard {
   [[nodiscard]] bool is_tangled() const;
   /// Takes the shapes of the faces as they are now as the state to compare with.
   void set_start(const VertexPlaces& places);
-  /// [V] 1 at the vertices of faces that got worse in shape.
+  /// Whether a face got worse in shape.
+  [[nodiscard]] bool is_spoilt(const VertexPlaces& places, Index face) const;
+  /// [V] 1 at the vertices of such faces.
   [[nodiscard]] std::vector<std::uint8_t> spoilt(const VertexPlaces& places) const;
   /// [V] 1 at the vertices of faces that have begun to cross. Looks only at faces that have moved
   /// since the last call: all moves of the vertices returned must be taken back before the next.

@@ -15,6 +15,7 @@
 #include "stages/fit/divide_crossing.h"
 #include "stages/fit/face_guard.h"
 #include "stages/fit/flow_lines.h"
+#include "stages/fit/move_apart.h"
 #include "stages/fit/vertex_places.h"
 
 namespace strake {
@@ -88,6 +89,16 @@ class Fit {
     for (Index v = 0; v < system_.size(); ++v) places_.restore(v, start[v]);
     measure();
     return false;
+  }
+
+  /// Moves vertices of crossing faces off each other. \return number of vertices moved
+  Index part() {
+    const Index moved = fitting::move_apart(quads_.mesh, guard_, places_);
+    if (moved > 0) {
+      places_.update_feet();
+      measure();
+    }
+    return moved;
   }
 
   /// Integral of the squared distance over result and surface.
@@ -208,6 +219,7 @@ FitResult fit_vertices(const TriMesh& mesh, const PrincipalField* field, const Q
     going = fit.improve();
     observer.report("moving vertices", double(rounds + 1) / static_cast<double>(options.rounds));
   }
+  const Index parted = fit.is_tangled() ? 0 : fit.part();
   fit.places().store(result.quads);
   double moved = 0;
   for (std::size_t v = 0; v < quads.mesh.positions.size(); ++v) {
@@ -215,6 +227,7 @@ FitResult fit_vertices(const TriMesh& mesh, const PrincipalField* field, const Q
   }
   const Index divided = fit.is_tangled() ? 0 : fitting::divide_crossing_faces(result.quads.mesh);
   result.quads.mesh.attributes = carry_attributes(mesh, result.quads.mesh, result.quads.provenance);
+  result.report.set("fit.parted_vertices", std::int64_t{parted});
   result.report.set("fit.divided_faces", std::int64_t{divided});
   result.report.set("fit.rounds", rounds);
   result.report.set("fit.rms_ratio", before > 0 ? std::sqrt(fit.error() / before) : 1.0);

@@ -148,6 +148,14 @@ Vec3 VertexPlaces::normal_at_foot(Index v) const {
   return normal.norm() > 0 ? Vec3(normal.normalized()) : face_normals_[foot_face_[v]];
 }
 
+double VertexPlaces::height(Index v) const {
+  Vec3 foot = Vec3::Zero();
+  for (int i = 0; i < 3; ++i) {
+    foot += foot_[v][i] * mesh_.positions[mesh_.faces[foot_face_[v]][i]];
+  }
+  return (positions_[v] - foot).dot(normals_[v]);
+}
+
 Vec3 VertexPlaces::cross_arm(const PrincipalField& field, Index v) const {
   const TangentFrame frame = tangent_frame(normals_[v]);
   std::complex<double> sum = 0;
@@ -195,9 +203,13 @@ double VertexPlaces::anisotropy(const PrincipalField& field, Index v) const {
 
 std::vector<VertexPlaces::State> VertexPlaces::states() const {
   std::vector<State> states;
-  for (std::size_t v = 0; v < positions_.size(); ++v) states.push_back({positions_[v], lines_[v]});
+  for (std::size_t v = 0; v < positions_.size(); ++v) {
+    states.push_back(state(static_cast<Index>(v)));
+  }
   return states;
 }
+
+VertexPlaces::State VertexPlaces::state(Index v) const { return {positions_[v], lines_[v]}; }
 
 void VertexPlaces::restore(Index v, const State& state) {
   positions_[v] = state.position;

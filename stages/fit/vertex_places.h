@@ -25,6 +25,8 @@ class VertexPlaces {
   [[nodiscard]] const std::vector<Vec3>& positions() const { return positions_; }
   /// Unit normal of the surface at the vertex's foot.
   [[nodiscard]] const Vec3& normal(Index v) const { return normals_[v]; }
+  /// Distance from the surface's tangent plane there; negative inside.
+  [[nodiscard]] double height(Index v) const;
   /// Of the input: [F], [W] unit.
   [[nodiscard]] const std::vector<Vec3>& face_normals() const { return face_normals_; }
   [[nodiscard]] const std::vector<Vec3>& wedge_normals() const { return wedge_normals_; }
@@ -47,6 +49,7 @@ class VertexPlaces {
   /// [V] where the vertices are, to return to.
   struct State;
   [[nodiscard]] std::vector<State> states() const;
+  [[nodiscard]] State state(Index v) const;
   void restore(Index v, const State& state);
 
   /// Writes positions and provenance to a result.

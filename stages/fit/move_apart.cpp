@@ -1,0 +1,200 @@
+#include "stages/fit/move_apart.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <vector>
+
+#include "common/geometry/face_crossings/box_tree.h"
+#include "common/geometry/face_crossings/face_crossings.h"
+#include "common/geometry/poly_topology/face_shape.h"
+#include "stages/fit/mendable_crossings.h"
+
+namespace strake::fitting {
+namespace {
+
+constexpr std::array<double, 5> kShares = {0.1, 0.25, 0.5, 0.75, 1};  ///< of the way that is tried
+/// Times that all vertices are tried, first with moves that keep to the surface: by how much a
+/// vertex may then rise, as a share of its shortest edge.
+constexpr int kSweepsOnSurface = 4;
+constexpr int kSweeps = 8;
+constexpr double kRise = 0.05;
+
+struct Shape {
+  BoxTree::Box box;
+  std::vector<std::array<Vec3, 3>> triangles;
+};
+
+bool cross(const Shape& a, const Shape& b) {
+  return a.box.intersects(b.box) && std::ranges::any_of(a.triangles, [&](const auto& one) {
+           return std::ranges::any_of(
+               b.triangles, [&](const auto& other) { return triangles_cross(one, other); });
+         });
+}
+
+class MoveApart {
+ public:
+  MoveApart(const PolyMesh& mesh, const FaceGuard& guard, VertexPlaces& places)
+      : mesh_(mesh),
+        guard_(guard),
+        places_(places),
+        faces_of_(mesh.positions.size()),
+        tree_(boxes()) {
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+      for (const Index v : mesh.face(f)) faces_of_[v].push_back(f);
+    }
+  }
+
+  Index run(const std::vector<std::array<Index, 2>>& pairs) {
+    std::set<Index> vertices;
+    for (const auto& pair : pairs) {
+      for (const Index f : pair) {
+        for (const Index v : mesh_.face(f)) vertices.insert(v);
+      }
+    }
+    std::set<Index> moved;
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+      const bool on_surface = sweep < kSweepsOnSurface;
+      for (const Index v : vertices) {
+        if (improve(v, on_surface)) moved.insert(v);
+      }
+    }
+    return static_cast<Index>(moved.size());
+  }
+
+ private:
+  [[nodiscard]] BoxTree::Box box(Index face) const {
+    BoxTree::Box box;
+    for (const Index v : mesh_.face(face)) box.extend(places_.positions()[v]);
+    return box;
+  }
+
+  [[nodiscard]] std::vector<BoxTree::Box> boxes() const {
+    std::vector<BoxTree::Box> boxes;
+    for (Index f = 0; f < mesh_.face_count(); ++f) boxes.push_back(box(f));
+    return boxes;
+  }
+
+  [[nodiscard]] Shape shape(Index face) const {
+    Shape shape{box(face), {}};
+    std::vector<std::array<Index, 3>> triangles;
+    triangulate_face(places_.positions(), mesh_.face(face), triangles);
+    for (const auto& [a, b, c] : triangles) {
+      shape.triangles.push_back(
+          {places_.positions()[a], places_.positions()[b], places_.positions()[c]});
+    }
+    return shape;
+  }
+
+  /// The faces that those around a vertex may come to touch when it moves by up to `reach`.
+  [[nodiscard]] std::vector<Shape> shapes_near(Index v, double reach) const {
+    BoxTree::Box around(places_.positions()[v]);
+    around.min().array() -= reach;
+    around.max().array() += reach;
+    for (const Index f : faces_of_[v]) around.extend(box(f));
+    // The tree holds the places at the start: what has moved since is looked at in any case.
+    std::set<Index> near(moved_.begin(), moved_.end());
+    tree_.visit_touching(around, [&](Index f) { near.insert(f); });
+    for (const Index f : faces_of_[v]) near.erase(f);
+    std::vector<Shape> shapes;
+    for (const Index f : near) {
+      if (box(f).intersects(around)) shapes.push_back(shape(f));
+    }
+    return shapes;
+  }
+
+  /// Pairs of crossing faces of which one at least has this vertex.
+  [[nodiscard]] std::size_t count_around(Index v, const std::vector<Shape>& others) const {
+    std::size_t count = 0;
+    std::vector<Shape> own;
+    for (const Index f : faces_of_[v]) {
+      const Shape face = shape(f);
+      const auto crosses = [&](const Shape& other) { return cross(face, other); };
+      count += std::ranges::count_if(own, crosses) + std::ranges::count_if(others, crosses);
+      own.push_back(face);
+    }
+    return count;
+  }
+
+  struct Ways {
+    std::vector<Vec3> all;  ///< in a fixed order
+    double longest = 0;
+    double shortest_edge = std::numeric_limits<double>::infinity();
+  };
+
+  [[nodiscard]] Ways ways_from(Index v) const {
+    const std::vector<Vec3>& p = places_.positions();
+    std::set<Index> neighbours;
+    for (const Index f : faces_of_[v]) {
+      const std::span<const Index> face = mesh_.face(f);
+      const auto at = static_cast<std::size_t>(std::ranges::find(face, v) - face.begin());
+      neighbours.insert(face[(at + 1) % face.size()]);
+      neighbours.insert(face[(at + face.size() - 1) % face.size()]);
+    }
+    Ways ways;
+    Vec3 middle = Vec3::Zero();
+    for (const Index w : neighbours) {
+      ways.all.emplace_back(p[w] - p[v]);
+      ways.all.emplace_back(p[v] - p[w]);
+      middle += (p[w] - p[v]) / static_cast<double>(neighbours.size());
+      ways.shortest_edge = std::min(ways.shortest_edge, (p[w] - p[v]).norm());
+    }
+    ways.all.push_back(middle);
+    ways.all.emplace_back(2 * middle);
+    ways.all.emplace_back(ways.shortest_edge * places_.normal(v));
+    ways.all.emplace_back(-ways.shortest_edge * places_.normal(v));
+    for (const Vec3& way : ways.all) ways.longest = std::max(ways.longest, way.norm());
+    return ways;
+  }
+
+  /// Moves a vertex to where the faces around it cross the fewest others. \return whether it did
+  bool improve(Index v, bool on_surface) {
+    const Ways ways = ways_from(v);
+    const std::vector<Shape> others = shapes_near(v, kShares.back() * ways.longest);
+    const std::size_t before = count_around(v, others);
+    if (before == 0) return false;
+    const VertexPlaces::State start = places_.state(v);
+    const double highest = std::abs(places_.height(v)) + kRise * ways.shortest_edge;
+    VertexPlaces::State best = start;
+    std::size_t fewest = before;
+    for (std::size_t i = 0; i < kShares.size() && fewest > 0; ++i) {
+      for (const Vec3& way : ways.all) {
+        places_.restore(v, start);
+        places_.move(v, kShares[i] * way);
+        if (on_surface && std::abs(places_.height(v)) > highest) continue;
+        if (std::ranges::any_of(faces_of_[v],
+                                [&](Index f) { return guard_.is_spoilt(places_, f); })) {
+          continue;
+        }
+        const std::size_t count = count_around(v, others);
+        if (count >= fewest) continue;
+        fewest = count;
+        best = places_.state(v);
+      }
+    }
+    places_.restore(v, best);
+    if (fewest == before) return false;
+    for (const Index f : faces_of_[v]) moved_.insert(f);
+    return true;
+  }
+
+  const PolyMesh& mesh_;
+  const FaceGuard& guard_;
+  VertexPlaces& places_;
+  std::vector<std::vector<Index>> faces_of_;  ///< [V]
+  BoxTree tree_;                              ///< of the faces at the start
+  std::set<Index> moved_;                     ///< faces
+};
+
+}  // namespace
+
+Index move_apart(const PolyMesh& mesh, FaceGuard& guard, VertexPlaces& places) {
+  const auto pairs = mendable_crossings(mesh, places.positions());
+  if (pairs.empty()) return 0;
+  guard.set_start(places);
+  return MoveApart(mesh, guard, places).run(pairs);
+}
+
+}  // namespace strake::fitting
