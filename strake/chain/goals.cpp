@@ -10,8 +10,9 @@
 
 #include "common/core/error.h"
 #include "common/core/tolerance_error.h"
-#include "stages/size/closer_near.h"
+#include "strake/chain/attempt.h"
 #include "strake/chain/count_search.h"
+#include "strake/chain/crossing_places.h"
 #include "strake/chain/density_match.h"
 
 namespace strake {
@@ -50,6 +51,10 @@ constexpr int kCloserPlaces = 5;
 constexpr double kCloserThere = 0.5;
 constexpr int kFewRounds = 2;
 constexpr int kAllRounds = std::numeric_limits<int>::max();
+/// Attempts to part faces that may leave more than half of them. Dividing cells down to a tolerance
+/// makes more of them cross, and closer lines cost no count.
+constexpr int kPatience = 2;
+constexpr int kPatienceWithTolerance = 3;
 /// Rounds of fitting before errors are measured: enough to see where they will stay.
 constexpr int kMeasuringFitRounds = 3;
 
@@ -58,6 +63,12 @@ struct LineAim {
   Counted counted;
   std::int64_t count;
   std::int64_t wanted;  ///< by the user, of lines and of the cells that are divided
+  double left;          ///< share of what is wanted that lines leave for dividing cells
+
+  /// Share of the wanted count that another one is off by.
+  [[nodiscard]] double miss(std::int64_t reached) const {
+    return std::abs(static_cast<double>(reached - wanted)) / static_cast<double>(wanted);
+  }
 };
 
 std::int64_t count_of(const Session& session, const char* port, Counted counted) {
@@ -70,6 +81,16 @@ const char* name_of(Counted counted) { return counted == Counted::vertices ? "ve
 void trace_and_mesh(Session& session, const GoalStages& stages) {
   session.run(stages.trace);
   session.run(stages.mesh);
+}
+
+void keep_fitted(Session& session, const GoalStages& stages) {
+  for (const Stage* stage : {&stages.trace, &stages.mesh, &stages.fit}) session.keep(*stage);
+}
+
+void trace_mesh_and_fit(Session& session, const GoalStages& stages) {
+  trace_and_mesh(session, stages);
+  session.run(stages.fit);
+  keep_fitted(session, stages);
 }
 
 /// Fits as many rounds as show where errors will stay.
@@ -231,23 +252,40 @@ std::optional<ToleranceError> refine_in_turn(Session& session, const GoalStages&
 }
 
 /// Traces at the distances that the options ask for, then closer and closer around the places that
-/// dividing cells does not bring within the tolerance. \return the port of the result
+/// dividing cells does not bring within the tolerance. \return what is
 /// \throw ToleranceError where that is not enough
-std::string close_in(Session& session, const GoalStages& stages) {
+Attempt close_in(Session& session, const GoalStages& stages, CrossingPlaces& crossing) {
   for (int trial = 0;; ++trial) {
     const bool is_last = trial == kCloserPlaces;
-    follow_spacing(session, stages);
+    trace_mesh_and_fit(session, stages);
+    const Session meshed = session;
     const std::optional<ToleranceError> miss =
         refine_in_turn(session, stages, is_last ? kAllRounds : kFewRounds);
-    if (!miss) return "refined";
+    if (!miss) return {meshed, session, crossing.of(session.get<QuadMesh>("refined").mesh)};
     if (is_last) throw *miss;
     session.say(fmt::format("tracing closer lines around {} places", miss->places().size()));
-    session.provide("size",
-                    closer_near(session.get<TriMesh>("mesh"), session.get<LineSet>("lines"),
-                                miss->places(), kCloserThere),
-                    "closer lines", "");
-    stages.trace.option("spacing-scale").parse_into("1");  // the distances have it in them
+    want_closer(session, stages, miss->places(), kCloserThere);
   }
+}
+
+/// Traces at the distances that the options ask for, and closer everywhere where dividing cells
+/// does not reach the tolerance, or then around the places left. \return what is within it \throw
+/// ToleranceError where that is not enough
+Attempt trace_within(Session& session, const GoalStages& stages, CrossingPlaces& crossing) {
+  const Option& scale = stages.trace.option("spacing-scale");
+  const std::string first_scale = scale.value();
+  for (int trial = 0; trial <= kCloserLines; ++trial) {
+    trace_mesh_and_fit(session, stages);
+    const Session meshed = session;
+    const std::optional<ToleranceError> miss = refine_in_turn(session, stages, kAllRounds);
+    if (!miss) return {meshed, session, crossing.of(session.get<QuadMesh>("refined").mesh)};
+    if (stages.refine.option("refine-rounds").value() == "0") throw *miss;
+    session.say("dividing cells does not reach the tolerance; tracing closer lines");
+    const double closer_scale = kCloser * std::stod(scale.value());
+    scale.parse_into(fmt::format("{}", std::clamp(closer_scale, scale.min, scale.max)));
+  }
+  scale.parse_into(first_scale);
+  return close_in(session, stages, crossing);
 }
 
 }  // namespace
@@ -255,13 +293,36 @@ std::string close_in(Session& session, const GoalStages& stages) {
 namespace {
 
 /// Vertices or faces that dividing cells is to add to those that lines give.
-/// \param left  share of the wanted count that lines leave for it
-std::int64_t to_add(std::int64_t given, std::int64_t wanted, double left) {
+std::int64_t to_add(std::int64_t given, const LineAim& aim) {
   const auto have = static_cast<double>(given);
-  const auto aim = static_cast<double>(wanted);
-  const double nearly = (1 - 0.8 * kCountTolerance) * aim;
+  const auto wanted = static_cast<double>(aim.wanted);
+  const double nearly = (1 - 0.8 * kCountTolerance) * wanted;
   const double most = std::max((1 + kMostDivided) * have, nearly);
-  return std::llround(std::max(std::min(aim, most) - have, left / 2 * aim));
+  return std::llround(std::max(std::min(wanted, most) - have, aim.left / 2 * wanted));
+}
+
+/// Divides the worst cells for what is missing of the count, and fits vertices.
+/// \pre traced and meshed
+Attempt fit_to_count(Session session, const GoalStages& stages, const LineAim& aim,
+                     CrossingPlaces& crossing) {
+  session.keep(stages.trace);
+  session.keep(stages.mesh);
+  const Session meshed = session;
+  const std::int64_t given = count_of(session, "quads", aim.counted);
+  const double missing = 1 - static_cast<double>(given) / static_cast<double>(aim.wanted);
+  if (aim.left > 0 || (missing > CountSearch::kMostMissing && !only_quads(stages))) {
+    fit_for_measuring(session, stages);
+    const std::int64_t vertices =
+        count_of(session, "fitted", Counted::vertices) + to_add(given, aim);
+    stages.refine.option("refine-vertices").parse_into(std::to_string(vertices));
+    session.run(stages.refine);
+    session.keep(stages.refine);
+    fit_refined(session, stages);
+  } else {
+    session.run(stages.fit);
+  }
+  session.keep(stages.fit);
+  return {meshed, session, crossing.of(session.get<QuadMesh>("fitted").mesh)};
 }
 
 }  // namespace
@@ -270,7 +331,7 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
                        std::int64_t wanted, std::optional<std::int64_t> feedback_rounds) {
   // A density says where vertices go, not the errors.
   const double left = only_quads(stages) || session.has("density") ? 0 : kLeftForWorst;
-  const LineAim aim{counted, std::llround((1 - left) * static_cast<double>(wanted)), wanted};
+  const LineAim aim{counted, std::llround((1 - left) * static_cast<double>(wanted)), wanted, left};
   if (session.has("density") && !feedback_rounds) {
     const DensityMatch match = match_density(session, stages);
     follow_density(session, stages, match, aim);
@@ -282,25 +343,26 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
     }
     search_scale(session, stages, aim);
   }
-  session.keep(stages.trace);
-  session.keep(stages.mesh);
-  const std::int64_t given = count_of(session, "quads", counted);
-  const double missing = 1 - static_cast<double>(given) / static_cast<double>(wanted);
-  if (left > 0 || (missing > CountSearch::kMostMissing && !only_quads(stages))) {
-    fit_for_measuring(session, stages);
-    const std::int64_t vertices =
-        count_of(session, "fitted", Counted::vertices) + to_add(given, wanted, left);
-    stages.refine.option("refine-vertices").parse_into(std::to_string(vertices));
-    session.run(stages.refine);
-    session.keep(stages.refine);
-    fit_refined(session, stages);
-  } else {
-    session.run(stages.fit);
-  }
-  session.keep(stages.fit);
+  CrossingPlaces crossing(session.get<TriMesh>("mesh"));
+  const Attempt first = fit_to_count(session, stages, aim, crossing);
+  const double first_miss = aim.miss(count_of(first.done, "fitted", counted));
+  const auto again = [&](Session next) {
+    trace_and_mesh(next, stages);
+    search_scale(next, stages, aim);
+    Attempt attempt = fit_to_count(next, stages, aim, crossing);
+    const double miss = aim.miss(count_of(attempt.done, "fitted", counted));
+    attempt.misses_goal = miss > std::max(first_miss, kCountTolerance);
+    return attempt;
+  };
+  const auto keep = [&](Attempt& attempt) {
+    attempt.meshed.keep(stages.trace);
+    attempt.meshed.keep(stages.mesh);
+    if (attempt.done.has("refined")) attempt.done.keep(stages.refine);
+    attempt.done.keep(stages.fit);
+  };
+  session = part_faces(first, stages, kPatience, again, keep).done;
   const std::int64_t reached = count_of(session, "fitted", counted);
-  const double off = std::abs(static_cast<double>(reached - wanted)) / static_cast<double>(wanted);
-  if (off > kCountTolerance) {
+  if (aim.miss(reached) > kCountTolerance) {
     session.say(fmt::format(
         "warning: {} {} were wanted, but the nearest result has {}: the shape, --max-spacing or "
         "the mesh's own resolution do not allow it",
@@ -310,35 +372,40 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
 }
 
 std::string follow_spacing(Session& session, const GoalStages& stages) {
-  for (const Stage* stage : {&stages.trace, &stages.mesh, &stages.fit}) {
-    session.run(*stage);
-    session.keep(*stage);
-  }
+  CrossingPlaces crossing(session.get<TriMesh>("mesh"));
+  const auto again = [&](Session next) -> Attempt {
+    trace_mesh_and_fit(next, stages);
+    return {next, next, crossing.of(next.get<QuadMesh>("fitted").mesh)};
+  };
+  const auto keep = [&](Attempt& attempt) { keep_fitted(attempt.done, stages); };
+  session = part_faces(again(session), stages, kPatience, again, keep).done;
   return "fitted";
 }
 
 std::string meet_tolerance(Session& session, const GoalStages& stages,
                            const std::string& tolerance) {
   stages.refine.option("refine-tolerance").parse_into(tolerance);
-  const Option& scale = stages.trace.option("spacing-scale");
-  const std::string first_scale = scale.value();
-  for (int trial = 0; trial <= kCloserLines; ++trial) {
-    const std::string fitted = follow_spacing(session, stages);
-    if (only_quads(stages)) {
-      session.say(
-          "warning: with --pure-quads cells are not divided: the tolerance steers the spacing of "
-          "lines, and may be exceeded");
-      return fitted;
-    }
-    const std::optional<ToleranceError> miss = refine_in_turn(session, stages, kAllRounds);
-    if (!miss) return "refined";
-    if (stages.refine.option("refine-rounds").value() == "0") throw *miss;
-    session.say("dividing cells does not reach the tolerance; tracing closer lines");
-    const double closer_scale = kCloser * std::stod(scale.value());
-    scale.parse_into(fmt::format("{}", std::clamp(closer_scale, scale.min, scale.max)));
+  if (only_quads(stages)) {
+    session.say(
+        "warning: with --pure-quads cells are not divided: the tolerance steers the spacing of "
+        "lines, and may be exceeded");
+    return follow_spacing(session, stages);
   }
-  scale.parse_into(first_scale);
-  return close_in(session, stages);
+  CrossingPlaces crossing(session.get<TriMesh>("mesh"));
+  const Attempt first = trace_within(session, stages, crossing);
+  const auto again = [&](Session next) -> Attempt {
+    trace_mesh_and_fit(next, stages);
+    const Session meshed = next;
+    const std::optional<ToleranceError> miss = refine_in_turn(next, stages, kAllRounds);
+    if (miss) return {meshed, next, miss->places(), true};
+    return {meshed, next, crossing.of(next.get<QuadMesh>("refined").mesh)};
+  };
+  const auto keep = [&](Attempt& attempt) {
+    keep_fitted(attempt.meshed, stages);
+    attempt.done.keep(stages.refine);
+  };
+  session = part_faces(first, stages, kPatienceWithTolerance, again, keep).done;
+  return "refined";
 }
 
 }  // namespace strake

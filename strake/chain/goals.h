@@ -4,19 +4,10 @@
 #include <optional>
 #include <string>
 
-#include "common/stage/stage.h"
+#include "strake/chain/goal_stages.h"
 #include "strake/chain/session.h"
 
 namespace strake {
-
-/// The stages that are run again and again until a goal is met. Copies share option values.
-struct GoalStages {
-  Stage trace;
-  Stage mesh;
-  Stage fit;
-  Stage size;
-  Stage refine;
-};
 
 /// What is counted.
 enum class Counted { vertices, faces };

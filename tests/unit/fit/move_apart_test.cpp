@@ -32,7 +32,8 @@ void add_plate(PolyMesh& mesh, Index columns, Index rows, double z) {
 class OneVertexOff {
  public:
   OneVertexOff(const PolyMesh& plates, Index vertex, const Vec3& place)
-      : mesh_(support::plain_tri_mesh(triangulated(plates))), surface_(mesh_.positions, mesh_.faces) {
+      : mesh_(support::plain_tri_mesh(triangulated(plates))),
+        surface_(mesh_.positions, mesh_.faces) {
     quads_.mesh = plates;
     for (const Vec3& p : plates.positions) {
       const ClosestPoint nearest = surface_.closest(p);

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "common/core/poly_mesh.h"
+#include "common/core/tri_mesh.h"
+#include "common/geometry/surface_distance/surface_distance.h"
+
+namespace strake {
+
+/// Finds where faces of results cross although the surface does not.
+class CrossingPlaces {
+ public:
+  /// \param mesh  the input, kept by reference
+  explicit CrossingPlaces(const TriMesh& mesh) : mesh_(mesh) {}
+
+  /// The middles of the faces that cross others, relative to the mesh's origin, but for those
+  /// within reach of which the input crosses itself.
+  std::vector<Vec3> of(const PolyMesh& result);
+
+ private:
+  /// Whether the input crosses itself nearer to a place than `reach`.
+  bool is_crossed_by_itself(const Vec3& place, double reach);
+
+  const TriMesh& mesh_;
+  bool is_known_ = false;                 ///< whether `own_` is
+  std::unique_ptr<SurfaceDistance> own_;  ///< the faces of the input that cross; nullptr: none
+};
+
+}  // namespace strake

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "common/stage/stage.h"
+
+namespace strake {
+
+/// The stages that are run again and again until a goal is met. Copies share option values.
+struct GoalStages {
+  Stage trace;
+  Stage mesh;
+  Stage fit;
+  Stage size;
+  Stage refine;
+};
+
+}  // namespace strake

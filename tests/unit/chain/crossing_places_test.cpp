@@ -1,0 +1,67 @@
+#include "strake/chain/crossing_places.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "tests/support/mesh_support.h"
+
+namespace strake {
+namespace {
+
+void add_square(PolyMesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const Index first = mesh.vertex_count();
+  mesh.positions.insert(mesh.positions.end(), {a, b, c, d});
+  mesh.add_face(std::array<Index, 4>{first, first + 1, first + 2, first + 3});
+}
+
+/// A square in the plane z = 0 around `middle`, and one that stands on it or passes through it.
+PolyMesh two_squares(const Vec3& middle, double lowest) {
+  PolyMesh mesh;
+  const auto at = [&](double x, double y, double z) { return Vec3(middle + Vec3(x, y, z)); };
+  add_square(mesh, at(-1, -1, 0), at(1, -1, 0), at(1, 1, 0), at(-1, 1, 0));
+  add_square(mesh, at(-0.5, 0, lowest), at(0.5, 0, lowest), at(0.5, 0, lowest + 1),
+             at(-0.5, 0, lowest + 1));
+  return mesh;
+}
+
+TriMesh triangles_of(const PolyMesh& mesh) {
+  PolyMesh triangles;
+  triangles.positions = mesh.positions;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const auto face = mesh.face(f);
+    triangles.add_face(std::array<Index, 3>{face[0], face[1], face[2]});
+    triangles.add_face(std::array<Index, 3>{face[0], face[2], face[3]});
+  }
+  return support::plain_tri_mesh(triangles);
+}
+
+const Vec3 kHere(3, 1, -2);
+
+TEST(CrossingPlaces, AreTheMiddlesOfFacesThatCross) {
+  TriMesh surface = triangles_of(two_squares(Vec3::Zero(), 0.1));
+  surface.origin = kHere;
+  CrossingPlaces crossing(surface);
+  EXPECT_TRUE(crossing.of(two_squares(kHere, 0.1)).empty());
+  const std::vector<Vec3> places = crossing.of(two_squares(kHere, -0.3));
+  ASSERT_EQ(places.size(), 2u);
+  EXPECT_LT((places[0] - Vec3(0, 0, 0)).norm(), 1e-12);
+  EXPECT_LT((places[1] - Vec3(0, 0, 0.2)).norm(), 1e-12);
+}
+
+TEST(CrossingPlaces, AreNotWhereTheInputCrossesItself) {
+  PolyMesh both = two_squares(Vec3::Zero(), -0.3);
+  const PolyMesh far = two_squares(kHere, 0.1);
+  for (Index f = 0; f < far.face_count(); ++f) {
+    const auto face = far.face(f);
+    add_square(both, far.positions[face[0]], far.positions[face[1]], far.positions[face[2]],
+               far.positions[face[3]]);
+  }
+  const TriMesh surface = triangles_of(both);
+  CrossingPlaces crossing(surface);
+  EXPECT_TRUE(crossing.of(two_squares(Vec3::Zero(), -0.3)).empty());
+  EXPECT_EQ(crossing.of(two_squares(kHere, -0.3)).size(), 2u);
+}
+
+}  // namespace
+}  // namespace strake

@@ -1,0 +1,65 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/geometry/face_crossings/face_crossings.h"
+#include "common/geometry/poly_topology/face_shape.h"
+#include "common/geometry/samples/samples.h"
+#include "strake/chain/remesh.h"
+
+namespace strake {
+namespace {
+
+/// A unit sphere with a ring of claws around its pole, closer together than wanted cells are wide.
+/// \param apart  angle of the claws from the pole
+/// \param width  angle at which a claw has 1/e of its height
+PolyMesh claws(int count, double apart, double width, double height, std::int64_t faces) {
+  SampleOptions options;
+  options.faces = faces;
+  PolyMesh mesh = make_sample(SampleKind::sphere, options);
+  for (Vec3& p : mesh.positions) {
+    const Vec3 direction = p.normalized();
+    double radius = 1;
+    for (int i = 0; i < count; ++i) {
+      const double turn = 2 * M_PI * i / count;
+      const Vec3 tip(std::sin(apart) * std::cos(turn), std::sin(apart) * std::sin(turn),
+                     std::cos(apart));
+      const double angle = std::acos(std::clamp(direction.dot(tip), -1.0, 1.0)) / width;
+      radius += height * std::exp(-angle * angle);
+    }
+    p = radius * direction;
+  }
+  return mesh;
+}
+
+std::size_t crossings(const PolyMesh& mesh) {
+  return find_crossing_faces(mesh.positions, triangulate_faces(mesh)).size();
+}
+
+// With lines for the tolerance alone cells lie across a claw, and dividing them leaves hundreds
+// of pairs of faces that cross.
+TEST(Remesh, WithinAToleranceFacesDoNotCross) {
+  RemeshOptions options;
+  options.trace.tolerance = percent(0.7);
+  options.measure = false;
+  const PolyMesh mesh = claws(4, 0.25, 0.1, 0.6, 12000);
+  ASSERT_EQ(crossings(mesh), 0u);
+  const RemeshResult result = remesh({mesh, {}, {}, {}}, options);
+  EXPECT_EQ(crossings(result.quads.mesh), 0u);
+}
+
+// Likewise with so few vertices that a claw has four or five.
+TEST(Remesh, WithFewVerticesFacesDoNotCross) {
+  RemeshOptions options;
+  options.trace.vertices = 200;
+  options.measure = false;
+  const PolyMesh mesh = claws(6, 0.3, 0.08, 0.6, 8000);
+  ASSERT_EQ(crossings(mesh), 0u);
+  const RemeshResult result = remesh({mesh, {}, {}, {}}, options);
+  EXPECT_EQ(crossings(result.quads.mesh), 0u);
+  EXPECT_NEAR(result.quads.mesh.vertex_count(), 200, 10);
+}
+
+}  // namespace
+}  // namespace strake
