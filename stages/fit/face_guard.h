@@ -23,6 +23,8 @@ class FaceGuard {
   /// Whether so many faces cross from the start that sheets must lie on top of each other: any move
   /// makes others cross.
   [[nodiscard]] bool is_tangled() const;
+  /// Pairs of faces that crossed from the start; no others do.
+  [[nodiscard]] std::size_t crossing_count() const { return allowed_.size(); }
   /// Takes the shapes of the faces as they are now as the state to compare with.
   void set_start(const VertexPlaces& places);
   /// Whether a face got worse in shape.

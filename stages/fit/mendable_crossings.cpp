@@ -1,5 +1,6 @@
 #include "stages/fit/mendable_crossings.h"
 
+#include <algorithm>
 #include <set>
 
 #include "common/geometry/face_crossings/face_crossings.h"
@@ -10,6 +11,7 @@ namespace {
 
 constexpr double kLargestShare = 0.1;
 constexpr std::size_t kFewCrossings = 100;
+constexpr std::size_t kMostCrossings = 5000;
 
 }  // namespace
 
@@ -18,8 +20,9 @@ std::vector<std::array<Index, 2>> mendable_crossings(const PolyMesh& mesh,
   auto pairs = find_crossing_faces(positions, triangulate_faces(mesh, positions));
   std::set<Index> faces;
   for (const auto& pair : pairs) faces.insert(pair.begin(), pair.end());
-  if (pairs.size() > kFewCrossings &&
-      static_cast<double>(faces.size()) > kLargestShare * static_cast<double>(mesh.face_count())) {
+  const double share = static_cast<double>(faces.size()) /
+                       static_cast<double>(std::max(Index{1}, mesh.face_count()));
+  if (pairs.size() > kMostCrossings || (pairs.size() > kFewCrossings && share > kLargestShare)) {
     pairs.clear();
   }
   return pairs;

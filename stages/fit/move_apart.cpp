@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <set>
 #include <vector>
@@ -15,12 +16,12 @@
 namespace strake::fitting {
 namespace {
 
+/// Of more pairs none is tried: specks in each other, where moves cost the more and help the less.
+constexpr std::size_t kMostPairs = 500;
 constexpr std::array<double, 5> kShares = {0.1, 0.25, 0.5, 0.75, 1};  ///< of the way that is tried
-/// Times that all vertices are tried, first with moves that keep to the surface: by how much a
-/// vertex may then rise, as a share of its shortest edge.
-constexpr int kSweepsOnSurface = 4;
-constexpr int kSweeps = 8;
-constexpr double kRise = 0.05;
+/// By how much a vertex may rise over the surface each time that all are tried, as a share of its
+/// shortest edge: not at first, so that it is the sheet that sticks out that moves.
+constexpr std::array<double, 8> kRises = {0.05, 0.05, 0.05, 0.05, 0.5, 0.5, 0.5, 0.5};
 
 struct Shape {
   BoxTree::Box box;
@@ -41,7 +42,8 @@ class MoveApart {
         guard_(guard),
         places_(places),
         faces_of_(mesh.positions.size()),
-        tree_(boxes()) {
+        tree_(boxes()),
+        is_moved_(static_cast<std::size_t>(mesh.face_count()), 0) {
     for (Index f = 0; f < mesh.face_count(); ++f) {
       for (const Index v : mesh.face(f)) faces_of_[v].push_back(f);
     }
@@ -55,10 +57,9 @@ class MoveApart {
       }
     }
     std::set<Index> moved;
-    for (int sweep = 0; sweep < kSweeps; ++sweep) {
-      const bool on_surface = sweep < kSweepsOnSurface;
+    for (const double rise : kRises) {
       for (const Index v : vertices) {
-        if (improve(v, on_surface)) moved.insert(v);
+        if (improve(v, rise)) moved.insert(v);
       }
     }
     return static_cast<Index>(moved.size());
@@ -94,14 +95,16 @@ class MoveApart {
     around.min().array() -= reach;
     around.max().array() += reach;
     for (const Index f : faces_of_[v]) around.extend(box(f));
-    // The tree holds the places at the start: what has moved since is looked at in any case.
-    std::set<Index> near(moved_.begin(), moved_.end());
-    tree_.visit_touching(around, [&](Index f) { near.insert(f); });
-    for (const Index f : faces_of_[v]) near.erase(f);
     std::vector<Shape> shapes;
-    for (const Index f : near) {
-      if (box(f).intersects(around)) shapes.push_back(shape(f));
-    }
+    const auto add = [&](Index f) {
+      const bool is_around = std::ranges::find(faces_of_[v], f) != faces_of_[v].end();
+      if (!is_around && box(f).intersects(around)) shapes.push_back(shape(f));
+    };
+    // The tree holds the places at the start: what has moved since is looked at in any case.
+    for (const Index f : moved_) add(f);
+    tree_.visit_touching(around, [&](Index f) {
+      if (is_moved_[f] == 0) add(f);
+    });
     return shapes;
   }
 
@@ -150,20 +153,20 @@ class MoveApart {
   }
 
   /// Moves a vertex to where the faces around it cross the fewest others. \return whether it did
-  bool improve(Index v, bool on_surface) {
+  bool improve(Index v, double rise) {
     const Ways ways = ways_from(v);
     const std::vector<Shape> others = shapes_near(v, kShares.back() * ways.longest);
     const std::size_t before = count_around(v, others);
     if (before == 0) return false;
     const VertexPlaces::State start = places_.state(v);
-    const double highest = std::abs(places_.height(v)) + kRise * ways.shortest_edge;
+    const double highest = std::abs(places_.height(v)) + rise * ways.shortest_edge;
     VertexPlaces::State best = start;
     std::size_t fewest = before;
     for (std::size_t i = 0; i < kShares.size() && fewest > 0; ++i) {
       for (const Vec3& way : ways.all) {
         places_.restore(v, start);
         places_.move(v, kShares[i] * way);
-        if (on_surface && std::abs(places_.height(v)) > highest) continue;
+        if (std::abs(places_.height(v)) > highest) continue;
         if (std::ranges::any_of(faces_of_[v],
                                 [&](Index f) { return guard_.is_spoilt(places_, f); })) {
           continue;
@@ -176,7 +179,10 @@ class MoveApart {
     }
     places_.restore(v, best);
     if (fewest == before) return false;
-    for (const Index f : faces_of_[v]) moved_.insert(f);
+    for (const Index f : faces_of_[v]) {
+      if (is_moved_[f] == 0) moved_.push_back(f);
+      is_moved_[f] = 1;
+    }
     return true;
   }
 
@@ -185,12 +191,14 @@ class MoveApart {
   VertexPlaces& places_;
   std::vector<std::vector<Index>> faces_of_;  ///< [V]
   BoxTree tree_;                              ///< of the faces at the start
-  std::set<Index> moved_;                     ///< faces
+  std::vector<Index> moved_;                  ///< faces
+  std::vector<std::uint8_t> is_moved_;        ///< [F] whether it is one of them
 };
 
 }  // namespace
 
 Index move_apart(const PolyMesh& mesh, FaceGuard& guard, VertexPlaces& places) {
+  if (guard.crossing_count() == 0 || guard.crossing_count() > kMostPairs) return 0;
   const auto pairs = mendable_crossings(mesh, places.positions());
   if (pairs.empty()) return 0;
   guard.set_start(places);

@@ -13,6 +13,8 @@ namespace {
 /// Factor on the distances of lines around faces that cross.
 constexpr double kCloser = 0.7;
 constexpr int kMostAttempts = 5;
+/// Where more faces cross the shape is finer than its lines all over.
+constexpr std::size_t kMostPlaces = 1000;
 
 }  // namespace
 
@@ -31,7 +33,10 @@ Attempt part_faces(const Attempt& first, const GoalStages& stages, int patience,
   Attempt best = first;
   Attempt last = first;
   bool is_last_best = true;
-  for (int i = 0; i < kMostAttempts && patience > 0 && !best.places.empty(); ++i) {
+  const auto is_worth_it = [&] {
+    return patience > 0 && !best.places.empty() && best.places.size() <= kMostPlaces;
+  };
+  for (int i = 0; i < kMostAttempts && is_worth_it(); ++i) {
     Session session = last.done;
     session.say(fmt::format("{} faces cross; tracing closer lines around {} places",
                             best.places.size(), last.places.size()));

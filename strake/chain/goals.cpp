@@ -372,13 +372,7 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
 }
 
 std::string follow_spacing(Session& session, const GoalStages& stages) {
-  CrossingPlaces crossing(session.get<TriMesh>("mesh"));
-  const auto again = [&](Session next) -> Attempt {
-    trace_mesh_and_fit(next, stages);
-    return {next, next, crossing.of(next.get<QuadMesh>("fitted").mesh)};
-  };
-  const auto keep = [&](Attempt& attempt) { keep_fitted(attempt.done, stages); };
-  session = part_faces(again(session), stages, kPatience, again, keep).done;
+  trace_mesh_and_fit(session, stages);
   return "fitted";
 }
 
