@@ -129,7 +129,7 @@ FAULTS = [
     # Afterwards
     Fault("faces may become concave when vertices move",
           "stages/fit/face_guard.cpp",
-          "(!now.is_concave || start.is_concave)", "(now.is_concave || start.is_concave)",
+          "(now.is_concave && !start.is_concave)", "(start.is_concave && !now.is_concave)",
           "test_fit", "Fit"),
     Fault("vertices on a crease jump to the other end of an edge",
           "stages/fit/vertex_places.cpp",
