@@ -10,7 +10,7 @@ namespace strake::fitting {
 
 /// The pairs of faces that cross with the vertices at these places, the smaller face first,
 /// ascending. None where more than a tenth of the faces cross, in more than a hundred pairs, or
-/// of more than 5000 pairs: sheets on top of each other, or details smaller than the faces, that no
+/// in more than 5000: sheets on top of each other, or details smaller than the faces, that no
 /// change of single faces mends.
 /// \param positions  [V]
 std::vector<std::array<Index, 2>> mendable_crossings(const PolyMesh& mesh,

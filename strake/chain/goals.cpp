@@ -252,7 +252,8 @@ std::optional<ToleranceError> refine_in_turn(Session& session, const GoalStages&
 }
 
 /// Traces at the distances that the options ask for, then closer and closer around the places that
-/// dividing cells does not bring within the tolerance. \return what is
+/// dividing cells does not bring within the tolerance.
+/// \return what is within it
 /// \throw ToleranceError where that is not enough
 Attempt close_in(Session& session, const GoalStages& stages, CrossingPlaces& crossing) {
   for (int trial = 0;; ++trial) {
@@ -269,8 +270,9 @@ Attempt close_in(Session& session, const GoalStages& stages, CrossingPlaces& cro
 }
 
 /// Traces at the distances that the options ask for, and closer everywhere where dividing cells
-/// does not reach the tolerance, or then around the places left. \return what is within it \throw
-/// ToleranceError where that is not enough
+/// does not reach the tolerance, or then around the places left.
+/// \return what is within it
+/// \throw ToleranceError where that is not enough
 Attempt trace_within(Session& session, const GoalStages& stages, CrossingPlaces& crossing) {
   const Option& scale = stages.trace.option("spacing-scale");
   const std::string first_scale = scale.value();
@@ -287,10 +289,6 @@ Attempt trace_within(Session& session, const GoalStages& stages, CrossingPlaces&
   scale.parse_into(first_scale);
   return close_in(session, stages, crossing);
 }
-
-}  // namespace
-
-namespace {
 
 /// Vertices or faces that dividing cells is to add to those that lines give.
 std::int64_t to_add(std::int64_t given, const LineAim& aim) {

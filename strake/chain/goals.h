@@ -17,7 +17,8 @@ enum class Counted { vertices, faces };
 /// In the first `feedback_rounds` rounds lines are traced again at distances that follow from the
 /// errors measured (by default one, with a density as many as it takes to follow it, up to five);
 /// then only the scale of all distances changes. Where more than 2 % of the count are missing in
-/// the end the cells that are farthest off are divided. \return the port of the result
+/// the end the cells that are farthest off are divided. Where faces of the result cross, lines are
+/// traced closer there and the count is looked for again. \return the port of the result
 std::string meet_count(Session& session, const GoalStages& stages, Counted counted,
                        std::int64_t wanted, std::optional<std::int64_t> feedback_rounds);
 
@@ -26,7 +27,7 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
 std::string follow_spacing(Session& session, const GoalStages& stages);
 
 /// Traces, and divides cells until the result is within a tolerance of the surface, both ways;
-/// where that is not reached, again with closer lines.
+/// where that is not reached, or faces of the result cross, again with closer lines.
 /// \param tolerance  as `Length::to_string` gives it
 /// \return the port of the result
 /// \throw ToleranceError naming places where that is not reached
