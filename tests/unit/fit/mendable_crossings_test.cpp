@@ -7,8 +7,8 @@
 namespace strake {
 namespace {
 
-/// Squares that stand in n planes one way and in n the other: each passes through n others, in n * n
-/// pairs. Beside them, squares that touch nothing.
+/// Squares that stand in n planes one way and in n the other: each passes through n others, in n *
+/// n pairs. Beside them, squares that touch nothing.
 PolyMesh crossed_squares(int n, int free) {
   PolyMesh mesh;
   const auto add = [&](const Vec3& a, const Vec3& along) {
@@ -28,10 +28,10 @@ std::size_t mendable(const PolyMesh& mesh) {
 }
 
 TEST(MendableCrossings, AreFewOrInASmallShareOfTheFaces) {
-  EXPECT_EQ(mendable(crossed_squares(10, 0)), 100u);   // few pairs
-  EXPECT_EQ(mendable(crossed_squares(11, 0)), 0u);     // all faces cross, in 121 pairs
+  EXPECT_EQ(mendable(crossed_squares(10, 0)), 100u);    // few pairs
+  EXPECT_EQ(mendable(crossed_squares(11, 0)), 0u);      // all faces cross, in 121 pairs
   EXPECT_EQ(mendable(crossed_squares(11, 198)), 121u);  // a tenth of the faces
-  EXPECT_EQ(mendable(crossed_squares(71, 2000)), 0u);  // 5041 pairs
+  EXPECT_EQ(mendable(crossed_squares(71, 2000)), 0u);   // 5041 pairs
   EXPECT_EQ(mendable(crossed_squares(70, 2000)), 4900u);
 }
 
