@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "common/core/error.h"
@@ -12,35 +13,39 @@ namespace {
 
 /// Factor on the distances of lines around faces that cross.
 constexpr double kCloser = 0.7;
-constexpr int kMostAttempts = 5;
+constexpr Index kMostAttempts = 5;
+/// Faces of all attempts together; one is made of any number.
+constexpr Index kMostFaces = 200000;
+/// Attempts that may leave more than half of the faces that cross.
+constexpr int kPatience = 3;
 /// Where more faces cross the shape is finer than its lines all over.
 constexpr std::size_t kMostPlaces = 1000;
 
 }  // namespace
 
-void want_closer(Session& session, const GoalStages& stages, const std::vector<Vec3>& places,
-                 double factor) {
+void want_closer(Session& session, const std::vector<Vec3>& places, double factor) {
   session.provide(
       "size",
       closer_near(session.get<TriMesh>("mesh"), session.get<LineSet>("lines"), places, factor),
       "closer lines", "");
-  stages.trace.option("spacing-scale").parse_into("1");  // the distances have it in them
 }
 
-Attempt part_faces(const Attempt& first, const GoalStages& stages, int patience,
-                   const std::function<Attempt(Session)>& again,
+Attempt part_faces(const Attempt& first, Index faces, const std::function<Attempt(Session)>& again,
                    const std::function<void(Attempt&)>& keep) {
   Attempt best = first;
   Attempt last = first;
   bool is_last_best = true;
+  int patience = kPatience;
   const auto is_worth_it = [&] {
     return patience > 0 && !best.places.empty() && best.places.size() <= kMostPlaces;
   };
-  for (int i = 0; i < kMostAttempts && is_worth_it(); ++i) {
+  const Index attempts =
+      std::clamp<Index>(kMostFaces / std::max<Index>(faces, 1), 1, kMostAttempts);
+  for (Index i = 0; i < attempts && is_worth_it(); ++i) {
     Session session = last.done;
     session.say(fmt::format("{} faces cross; tracing closer lines around {} places",
                             best.places.size(), last.places.size()));
-    want_closer(session, stages, last.places, kCloser);
+    want_closer(session, last.places, kCloser);
     try {
       last = again(std::move(session));
     } catch (const AlgorithmError&) {

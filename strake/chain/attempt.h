@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "common/core/types.h"
-#include "strake/chain/goal_stages.h"
 #include "strake/chain/session.h"
 
 namespace strake {
@@ -19,18 +18,16 @@ struct Attempt {
 
 /// From now on, wants lines at their present distances, but closer around some places.
 /// \param factor  on the distances there, from 0 to 1
-void want_closer(Session& session, const GoalStages& stages, const std::vector<Vec3>& places,
-                 double factor);
+void want_closer(Session& session, const std::vector<Vec3>& places, double factor);
 
 /// Where lines lie across a tip or a fold, its cells come to cross. Wants closer lines at such
 /// faces and makes the result again, as long as that helps.
 /// \param first     does not miss its goal
-/// \param patience  attempts that may leave more than half of the faces that cross
+/// \param faces     of its result: the more, the fewer attempts
 /// \param again     makes and keeps a result at the distances that the session wants
 /// \param keep      keeps one again
 /// \return the attempt that meets its goal with the fewest faces that cross; it is the one kept
-Attempt part_faces(const Attempt& first, const GoalStages& stages, int patience,
-                   const std::function<Attempt(Session)>& again,
+Attempt part_faces(const Attempt& first, Index faces, const std::function<Attempt(Session)>& again,
                    const std::function<void(Attempt&)>& keep);
 
 }  // namespace strake

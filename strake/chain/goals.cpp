@@ -51,10 +51,9 @@ constexpr int kCloserPlaces = 5;
 constexpr double kCloserThere = 0.5;
 constexpr int kFewRounds = 2;
 constexpr int kAllRounds = std::numeric_limits<int>::max();
-/// Attempts to part faces that may leave more than half of them. Dividing cells down to a tolerance
-/// makes more of them cross, and closer lines cost no count.
-constexpr int kPatience = 2;
-constexpr int kPatienceWithTolerance = 3;
+/// Scale on distances that were those of lines, and have theirs in them. Where a count is wanted
+/// the stage scales them to it first, and the scale found for that stays.
+constexpr const char* kScaleOfLines = "1";
 /// Rounds of fitting before errors are measured: enough to see where they will stay.
 constexpr int kMeasuringFitRounds = 3;
 
@@ -171,9 +170,8 @@ bool only_quads(const GoalStages& stages) {
   return stages.mesh.option("pure-quads").value() == "true";
 }
 
-/// Looks for the scale of distances that gives the count. Where all are too far above or below it,
-/// as on coarse meshes, takes what is below: cells can be divided.
-/// \pre traced and meshed at the present scale
+/// Looks for the scale of distances that gives the count, from the present one on. Where all are
+/// too far above or below it, as on coarse meshes, takes what is below: cells can be divided.
 void search_scale(Session& session, const GoalStages& stages, const LineAim& aim) {
   const Option& option = stages.trace.option("spacing-scale");
   CountSearch search(aim.count, std::stod(option.value()), option.min, option.max);
@@ -256,6 +254,7 @@ std::optional<ToleranceError> refine_in_turn(Session& session, const GoalStages&
 /// \return what is within it
 /// \throw ToleranceError where that is not enough
 Attempt close_in(Session& session, const GoalStages& stages, CrossingPlaces& crossing) {
+  const Option& scale = stages.trace.option("spacing-scale");
   for (int trial = 0;; ++trial) {
     const bool is_last = trial == kCloserPlaces;
     trace_mesh_and_fit(session, stages);
@@ -265,7 +264,8 @@ Attempt close_in(Session& session, const GoalStages& stages, CrossingPlaces& cro
     if (!miss) return {meshed, session, crossing.of(session.get<QuadMesh>("refined").mesh)};
     if (is_last) throw *miss;
     session.say(fmt::format("tracing closer lines around {} places", miss->places().size()));
-    want_closer(session, stages, miss->places(), kCloserThere);
+    want_closer(session, miss->places(), kCloserThere);
+    scale.parse_into(kScaleOfLines);
   }
 }
 
@@ -345,7 +345,6 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
   const Attempt first = fit_to_count(session, stages, aim, crossing);
   const double first_miss = aim.miss(count_of(first.done, "fitted", counted));
   const auto again = [&](Session next) {
-    trace_and_mesh(next, stages);
     search_scale(next, stages, aim);
     Attempt attempt = fit_to_count(next, stages, aim, crossing);
     const double miss = aim.miss(count_of(attempt.done, "fitted", counted));
@@ -358,7 +357,8 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
     if (attempt.done.has("refined")) attempt.done.keep(stages.refine);
     attempt.done.keep(stages.fit);
   };
-  session = part_faces(first, stages, kPatience, again, keep).done;
+  const Index faces = first.done.get<QuadMesh>("fitted").mesh.face_count();
+  session = part_faces(first, faces, again, keep).done;
   const std::int64_t reached = count_of(session, "fitted", counted);
   if (aim.miss(reached) > kCountTolerance) {
     session.say(fmt::format(
@@ -386,6 +386,7 @@ std::string meet_tolerance(Session& session, const GoalStages& stages,
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
   const Attempt first = trace_within(session, stages, crossing);
   const auto again = [&](Session next) -> Attempt {
+    stages.trace.option("spacing-scale").parse_into(kScaleOfLines);
     trace_mesh_and_fit(next, stages);
     const Session meshed = next;
     const std::optional<ToleranceError> miss = refine_in_turn(next, stages, kAllRounds);
@@ -396,7 +397,8 @@ std::string meet_tolerance(Session& session, const GoalStages& stages,
     keep_fitted(attempt.meshed, stages);
     attempt.done.keep(stages.refine);
   };
-  session = part_faces(first, stages, kPatienceWithTolerance, again, keep).done;
+  const Index faces = first.done.get<QuadMesh>("refined").mesh.face_count();
+  session = part_faces(first, faces, again, keep).done;
   return "refined";
 }
 
