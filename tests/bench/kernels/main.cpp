@@ -9,6 +9,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
@@ -27,7 +28,7 @@ namespace strake {
 namespace {
 
 constexpr double kStopFraction = 0.5;  ///< of the wanted distance, as `strake-trace` by default
-constexpr std::size_t kStride = 7;     ///< chords from one place asked about to the next
+constexpr double kStep = 0.25;         ///< line distances between places, likewise
 
 /// The artifacts, and what tracing makes of them.
 struct Data {
@@ -70,14 +71,20 @@ struct Data {
   }
 };
 
-/// Heads of lines where the chords are.
+/// Heads of lines on the chords, a step of the tracer or a little more from each other.
 std::vector<LineHead> heads_along(const Data& data) {
   std::vector<LineHead> heads;
-  for (std::size_t i = 0; i < data.chords.size(); i += kStride) {
+  double way = 0;
+  for (const LineSegment& chord : data.chords) {
     Seed seed;
-    seed.face = data.chords[i].face;
-    seed.direction = data.chords[i].direction;
-    heads.push_back(start_head(data.domain, seed, true));
+    seed.face = chord.face;
+    seed.direction = chord.direction;
+    const LineHead head = start_head(data.domain, seed, true);
+    way += (chord.b - chord.a).norm();
+    const LocalSpacing spacing = spacing_at(data.domain, head);
+    if (way < kStep * std::min(spacing.to_neighbours, spacing.along)) continue;
+    heads.push_back(head);
+    way = 0;
   }
   return heads;
 }
@@ -127,8 +134,8 @@ void chord_step(benchmark::State& state, const Data* data) {
   const std::vector<LineHead> heads = heads_along(*data);
   measure(state, heads.size(), [&](std::size_t i) {
     const LocalSpacing spacing = spacing_at(data->domain, heads[i]);
-    benchmark::DoNotOptimize(
-        runge_kutta(data->domain, heads[i], 0.25 * std::min(spacing.to_neighbours, spacing.along)));
+    benchmark::DoNotOptimize(runge_kutta(data->domain, heads[i],
+                                         kStep * std::min(spacing.to_neighbours, spacing.along)));
   });
 }
 

@@ -1,0 +1,93 @@
+#include "strake/chain/attempt.h"
+
+#include <gtest/gtest.h>
+
+#include <string_view>
+
+#include "common/geometry/samples/samples.h"
+#include "tests/support/mesh_support.h"
+
+namespace strake {
+namespace {
+
+class Silence : public StageObserver {
+ public:
+  void report(std::string_view /*phase*/, double /*fraction*/) override {}
+};
+
+/// Attempts that leave so many crossing faces one after the other, the first one included.
+class Attempts {
+ public:
+  explicit Attempts(std::vector<std::size_t> left) : left_(std::move(left)) {
+    SampleOptions options;
+    options.faces = 500;
+    const TriMesh mesh = support::plain_tri_mesh(make_sample(SampleKind::plane, options));
+    LineSet lines;
+    lines.spacing_along_min.assign(mesh.wedge_count(), 0.1);
+    lines.spacing_along_max = lines.spacing_along_min;
+    session_.provide("mesh", mesh, "mesh", "");
+    session_.provide("lines", lines, "lines", "");
+  }
+
+  /// \param faces  of each
+  Attempt part(Index faces) {
+    return part_faces(
+        next(session_), faces, [&](Session session) { return next(std::move(session)); },
+        [&](Attempt& attempt) { kept_ = attempt.places.size(); });
+  }
+  /// Those that were made again.
+  [[nodiscard]] std::size_t again() const { return made_ - 1; }
+  /// Faces that the attempt crosses in that was kept again; 0 where none was.
+  [[nodiscard]] std::size_t kept() const { return kept_; }
+
+ private:
+  Attempt next(Session session) {
+    const std::vector<Vec3> places(left_.at(made_), Vec3::Zero());
+    ++made_;
+    return {session, session, places, false};
+  }
+
+  Silence silence_;
+  Session session_{silence_};
+  std::vector<std::size_t> left_;
+  std::size_t made_ = 0;
+  std::size_t kept_ = 0;
+};
+
+TEST(PartFaces, EndsWhereNoFacesCross) {
+  Attempts attempts({8, 3, 0});
+  EXPECT_TRUE(attempts.part(100).places.empty());
+  EXPECT_EQ(attempts.again(), 2u);
+  EXPECT_EQ(attempts.kept(), 0u);
+}
+
+TEST(PartFaces, GoesOnForFiveAttemptsThatHelp) {
+  Attempts attempts({64, 32, 16, 8, 4, 2, 1});
+  EXPECT_EQ(attempts.part(100).places.size(), 2u);
+  EXPECT_EQ(attempts.again(), 5u);
+}
+
+TEST(PartFaces, GivesUpAfterThreeThatDoNotAndKeepsTheBest) {
+  Attempts attempts({8, 7, 9, 8, 0});
+  EXPECT_EQ(attempts.part(100).places.size(), 7u);
+  EXPECT_EQ(attempts.again(), 3u);
+  EXPECT_EQ(attempts.kept(), 7u);
+}
+
+TEST(PartFaces, MakesFewerAttemptsAtALargeResult) {
+  Attempts at_two({64, 32, 16, 8});
+  at_two.part(80000);
+  EXPECT_EQ(at_two.again(), 2u);
+  Attempts at_huge({64, 32, 16});
+  at_huge.part(10000000);
+  EXPECT_EQ(at_huge.again(), 1u);
+}
+
+TEST(PartFaces, TriesNothingWhereVeryManyCross) {
+  Attempts attempts({1001, 0});
+  EXPECT_EQ(attempts.part(100).places.size(), 1001u);
+  EXPECT_EQ(attempts.again(), 0u);
+}
+
+}  // namespace
+}  // namespace strake
