@@ -16,7 +16,8 @@ struct Attempt {
   bool misses_goal = false;  ///< else `places` are faces that cross
 };
 
-/// From now on, wants lines at their present distances, but closer around some places.
+/// From now on, wants lines at their present distances, but closer around some places. The scale of
+/// distances is for the caller to set: these have it in them, unless a count sets theirs.
 /// \param factor  on the distances there, from 0 to 1
 void want_closer(Session& session, const std::vector<Vec3>& places, double factor);
 
