@@ -1,16 +1,12 @@
 #include "common/artifact/hdf5_file.h"
 
-#include <fcntl.h>
 #include <hdf5.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <utility>
 
-#include "common/artifact/atomic_file.h"
+#include "common/artifact/hdf5_driver.h"
 
 namespace strake::hdf5 {
 namespace {
@@ -100,40 +96,6 @@ std::int64_t size_of(Scalar scalar) {
   return 0;
 }
 
-/// What HDF5 calls for the memory of a file that it keeps there. The file's bytes are handed over
-/// when it is closed, through `owner`: a pointer to them.
-H5FD_file_image_callbacks_t image_callbacks(unsigned char** owner) {
-  H5FD_file_image_callbacks_t calls = {};
-  calls.image_malloc = [](std::size_t size, H5FD_file_image_op_t, void*) {
-    return std::malloc(size);
-  };
-  calls.image_realloc = [](void* bytes, std::size_t size, H5FD_file_image_op_t, void*) {
-    return std::realloc(bytes, size);
-  };
-  calls.image_memcpy = [](void* to, const void* from, std::size_t size, H5FD_file_image_op_t,
-                          void*) { return std::memcpy(to, from, size); };
-  calls.image_free = [](void* bytes, H5FD_file_image_op_t occasion, void* to) -> herr_t {
-    if (occasion == H5FD_FILE_IMAGE_OP_FILE_CLOSE) {
-      *static_cast<unsigned char**>(to) = static_cast<unsigned char*>(bytes);
-    } else {
-      std::free(bytes);
-    }
-    return 0;
-  };
-  calls.udata_copy = [](void* to) { return to; };
-  calls.udata_free = [](void*) -> herr_t { return 0; };
-  calls.udata = owner;
-  return calls;
-}
-
-/// The size of a file in memory: the memory is a little larger. The superblock of version 3 says
-/// it, as a little-endian number at byte 28.
-std::size_t size_of_image(const unsigned char* bytes) {
-  std::uint64_t size = 0;
-  std::memcpy(&size, bytes + 28, sizeof(size));
-  return static_cast<std::size_t>(size);
-}
-
 /// Dimensions of a dataset; rank -1 where it has more than two or cannot be asked.
 std::pair<int, std::array<hsize_t, 2>> dimensions(hid_t dataset) {
   std::array<hsize_t, 2> sizes = {0, 1};
@@ -200,20 +162,17 @@ void File::fail(const std::string& object, const std::string& what) const {
   throw InputError(reason.empty() ? message : message + " (HDF5: " + reason + ")");
 }
 
-Writer::Writer(std::filesystem::path path, std::filesystem::path shown)
-    : File(std::move(shown)), path_(std::move(path)) {
+Writer::Writer(const std::filesystem::path& path, std::filesystem::path shown)
+    : File(std::move(shown)) {
   set_up();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   // Version 1.10 structures carry checksums of their own; times would make equal files differ.
   H5Pset_libver_bounds(access.id(), H5F_LIBVER_V110, H5F_LIBVER_V110);
   H5Pset_obj_track_times(creation.id(), false);
-  constexpr std::size_t kGrowth = 1 << 23;
-  constexpr bool kWriteOnClose = false;
-  H5Pset_fapl_core(access.id(), kGrowth, kWriteOnClose);
-  H5FD_file_image_callbacks_t callbacks = image_callbacks(&image_);
-  H5Pset_file_image_callbacks(access.id(), &callbacks);
-  id_ = H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, creation.id(), access.id());
+  if (!set_output_driver(access.id(), &error_)) fail("", "cannot be created");
+  id_ = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id());
+  require_written();
   if (id_ < 0) fail("", "cannot be created");
 }
 
@@ -284,22 +243,21 @@ void Writer::write(const std::string& name, const void* data, Scalar scalar, con
     fail(name, "cannot be written");
   }
   if (!dataset.close()) fail(name, "cannot be written");
+  require_written();
 }
 
 void Writer::finish() {
-  if (H5Fclose(std::exchange(id_, -1)) < 0 || image_ == nullptr) fail("", "cannot be written");
-  const int descriptor = ::open(path_.c_str(), O_WRONLY | O_TRUNC | O_CREAT | O_CLOEXEC, 0666);
-  const bool written = descriptor >= 0 && write_all(descriptor, image_, size_of_image(image_));
-  int error = written ? 0 : errno;
-  if (descriptor >= 0 && ::close(descriptor) != 0 && written) error = errno;
-  if (error != 0) {
-    throw InputError("cannot write '" + shown_.string() + "': " + std::strerror(error));
-  }
+  if (H5Fclose(std::exchange(id_, -1)) < 0) fail("", "cannot be written");
+  require_written();
+}
+
+void Writer::require_written() const {
+  if (error_ == 0) return;
+  throw InputError("cannot write '" + shown_.string() + "': " + std::strerror(error_));
 }
 
 Writer::~Writer() {
-  if (id_ >= 0) H5Fclose(std::exchange(id_, -1));
-  std::free(image_);
+  if (id_ >= 0) H5Fclose(std::exchange(id_, -1));  // before `error_` goes
 }
 
 Reader::Reader(const std::filesystem::path& path) : File(path) {

@@ -10,7 +10,7 @@
 #include "common/core/error.h"
 #include "common/core/types.h"
 
-/// Typed tables in HDF5 files. Its source is the only file of strake that includes hdf5.h.
+/// Typed tables in HDF5 files. Only its source, and that of the driver, include hdf5.h.
 namespace strake::hdf5 {
 
 enum class Scalar { u8, i32, i64, f64 };
@@ -83,14 +83,11 @@ class File {
 };
 
 /// Makes a new file: equal calls give equal bytes, each chunk carries a checksum.
-///
-/// The file grows in memory, and is written by ourselves when it is finished: HDF5 1.10 crashes, at
-/// the latest when the program ends, where a disk is full while it writes.
 class Writer : public File {
  public:
   /// \param path   file to create or overwrite, usually a temporary one
   /// \param shown  its name in messages
-  Writer(std::filesystem::path path, std::filesystem::path shown);
+  Writer(const std::filesystem::path& path, std::filesystem::path shown);
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
   ~Writer();
@@ -120,8 +117,10 @@ class Writer : public File {
  private:
   void write(const std::string& name, const void* data, Scalar scalar, const Shape& shape);
 
-  std::filesystem::path path_;
-  unsigned char* image_ = nullptr;  ///< the whole file, once it is closed
+  /// \throw InputError where something could not be written
+  void require_written() const;
+
+  int error_ = 0;  ///< errno of the first write that failed
 };
 
 /// Reads a file and trusts nothing in it: links to other files, filters but checksums, plugins and

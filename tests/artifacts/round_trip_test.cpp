@@ -113,14 +113,23 @@ TEST_P(RoundTrip, OldFileSurvivesAFailedWrite) {
 
 using Artifacts = FolderTest;
 
-/// Also of files larger than the piece by which they grow in memory; HDF5 would crash when the
-/// program ends.
-TEST_F(Artifacts, ADiskThatIsFullAtTheEndIsNoticed) {
+/// Wherever in the file: HDF5 by itself would crash, at the latest when the program ends.
+TEST_F(Artifacts, ADiskThatIsFullIsNoticed) {
   const std::vector<double> rows(3'000'000, 1.0);
-  const FileSizeLimit limit(rows.size() * sizeof(double) / 2);
-  hdf5::Writer writer(file("a.hdf"), file("a.hdf"));
-  writer.dataset("/rows", rows);
-  EXPECT_THROW(writer.finish(), InputError);
+  const auto write = [&] {
+    hdf5::Writer writer(file("a.hdf"), file("a.hdf"));
+    writer.dataset("/rows", rows);
+    writer.finish();
+  };
+  write();
+  const auto size = std::filesystem::file_size(file("a.hdf"));
+  for (const std::uintmax_t room : {std::uintmax_t{0}, std::uintmax_t{100}, size / 2, size - 1}) {
+    SCOPED_TRACE(room);
+    const FileSizeLimit limit(room);
+    EXPECT_THROW(write(), InputError);
+  }
+  const FileSizeLimit limit(size);
+  EXPECT_NO_THROW(write());
 }
 
 TEST_F(Artifacts, EmptyLineSetSurvives) {
