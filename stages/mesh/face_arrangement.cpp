@@ -26,37 +26,37 @@ void FaceArrangement::label(Index edge, EdgeKind kind, Index line, Index chord) 
   const auto size = static_cast<std::size_t>(overlay_.graph.dart_count()) / 2;
   overlay_.kind.resize(size);
   overlay_.line.resize(size);
-  overlay_.chord.resize(size);
+  chord_.resize(size - first_edge_);
   overlay_.kind[edge] = kind;
   overlay_.line[edge] = line;
-  overlay_.chord[edge] = chord;
+  chord_[edge - first_edge_] = chord;
+}
+
+Index FaceArrangement::chord_of(Index dart) const {
+  const Index edge = DartGraph::edge_of(dart);
+  return edge < first_edge_ ? kNone : chord_[edge - first_edge_];
 }
 
 void FaceArrangement::walk_outline(Index face, Index first) {
-  const std::size_t nodes = overlay_.nodes.size();
-  if (position_.size() < nodes) {
-    position_.resize(nodes + nodes / 2);
-    outline_dart_.resize(position_.size());
-    barycentric_.resize(position_.size());
-  }
-  outline_length_ = 0;
+  outline_dart_.clear();
+  barycentric_.clear();
   Index corner = 0;  // of the edge the walk is on
   Index d = first;
   do {
     const Index node = overlay_.graph.from(d);
-    position_[node] = outline_length_++;
-    outline_dart_[node] = d;
-    const SurfaceNode& info = overlay_.nodes[node];
+    position_[node] = static_cast<Index>(outline_dart_.size());
+    outline_dart_.push_back(d);
+    const SurfaceNode info = overlay_.nodes[node];
     if (info.vertex != kNone) {
       while (mesh_.faces[face][corner] != info.vertex) ++corner;
-      barycentric_[node] = Vec3::Unit(corner);
+      barycentric_.push_back(Vec3::Unit(corner));
     } else if (info.face == face) {
-      barycentric_[node] = Vec3(info.barycentric[0], info.barycentric[1], info.barycentric[2]);
+      barycentric_.emplace_back(info.barycentric[0], info.barycentric[1], info.barycentric[2]);
     } else {  // stored in the face across the edge
       // The twin starts where this edge ends: its origin's weight is the share of the way here.
       const double lambda = info.barycentric[mesh_.twin[3 * face + corner] % 3];
-      barycentric_[node] =
-          (1 - lambda) * Vec3::Unit(corner) + lambda * Vec3::Unit((corner + 1) % 3);
+      barycentric_.push_back((1 - lambda) * Vec3::Unit(corner) +
+                             lambda * Vec3::Unit((corner + 1) % 3));
     }
     d = overlay_.graph.next(d);
   } while (d != first);
@@ -65,6 +65,8 @@ void FaceArrangement::walk_outline(Index face, Index first) {
 void FaceArrangement::insert(Index face, Index first, const std::vector<Chord>& chords) {
   walk_outline(face, first);
   placed_.clear();
+  first_edge_ = overlay_.graph.dart_count() / 2;
+  chord_.clear();
   for (std::size_t id = 0; id < chords.size(); ++id) {
     insert_chord(face, chords[id], static_cast<Index>(id));
   }
@@ -74,17 +76,16 @@ void FaceArrangement::insert(Index face, Index first, const std::vector<Chord>& 
 /// between earlier chords are told apart by where those end on the outline.
 Index FaceArrangement::start_corner(const Chord& chord) const {
   const DartGraph& graph = overlay_.graph;
-  const auto around = [&](Index position) {
-    return (position - position_[chord.from] + outline_length_) % outline_length_;
-  };
+  const Index from = position_[chord.from];
+  const auto length = static_cast<Index>(outline_dart_.size());
+  const auto around = [&](Index position) { return (position - from + length) % length; };
   const Index wanted = around(position_[chord.to]);
-  Index best = outline_dart_[chord.from];
+  Index best = outline_dart_[from];
   for (Index d = graph.rotate_ccw(best);; d = graph.rotate_ccw(d)) {
-    const Index id = overlay_.chord[DartGraph::edge_of(d)];
+    const Index id = chord_of(d);
     if (id == kNone) break;  // the outline again
     const Placed& other = placed_[id];
-    const Index far =
-        other.from_position == position_[chord.from] ? other.to_position : other.from_position;
+    const Index far = other.from_position == from ? other.to_position : other.from_position;
     if (around(far) > wanted) break;
     best = d;
   }
@@ -97,7 +98,7 @@ Index FaceArrangement::next_crossing(Index corner) const {
   double best_at = 2;
   Index d = corner;
   do {
-    const Index id = overlay_.chord[DartGraph::edge_of(d)];
+    const Index id = chord_of(d);
     if (id != kNone && placed_[id].pending && placed_[id].at < best_at) {
       best = d;
       best_at = placed_[id].at;
@@ -110,19 +111,10 @@ Index FaceArrangement::next_crossing(Index corner) const {
 /// Leads the new chord from `corner` over `dart`; returns the corner it goes on from.
 Index FaceArrangement::cross(Index corner, Index dart, Index face, const Vec3& barycentric) {
   DartGraph& graph = overlay_.graph;
-  const auto node = static_cast<Index>(overlay_.nodes.size());
-  SurfaceNode info;
-  info.face = face;
-  info.position = Vec3::Zero();
-  for (int i = 0; i < 3; ++i) {
-    info.barycentric[i] = barycentric[i];
-    info.position += barycentric[i] * mesh_.positions[mesh_.faces[face][i]];
-  }
-  overlay_.nodes.push_back(info);
+  const Index node = overlay_.nodes.add_crossing(face, barycentric);
   const Index crossed = DartGraph::edge_of(dart);
   const Index second = graph.split_edge(dart, node);
-  label(DartGraph::edge_of(second), overlay_.kind[crossed], overlay_.line[crossed],
-        overlay_.chord[crossed]);
+  label(DartGraph::edge_of(second), overlay_.kind[crossed], overlay_.line[crossed], chord_of(dart));
   graph.connect(corner, second);
   return DartGraph::opposite(dart);
 }
@@ -132,8 +124,8 @@ void FaceArrangement::insert_chord(Index face, const Chord& chord, Index id) {
   Placed own;
   own.from_position = position_[chord.from];
   own.to_position = position_[chord.to];
-  own.a = barycentric_[chord.from];
-  own.b = barycentric_[chord.to];
+  own.a = barycentric_[own.from_position];
+  own.b = barycentric_[own.to_position];
   const auto [low, high] = std::minmax(own.from_position, own.to_position);
   Index pending = 0;
   for (Placed& other : placed_) {
@@ -153,7 +145,7 @@ void FaceArrangement::insert_chord(Index face, const Chord& chord, Index id) {
       throw AlgorithmError("face " + std::to_string(face) +
                            ": its chords do not form an arrangement");
     }
-    Placed& other = placed_[overlay_.chord[DartGraph::edge_of(dart)]];
+    Placed& other = placed_[chord_of(dart)];
     other.pending = false;
     at = std::max(at, other.at);
     corner = cross(corner, dart, face, own.a + at * (own.b - own.a));

@@ -15,7 +15,9 @@ class FaceArrangement {
     Index line = kNone;
   };
 
-  FaceArrangement(const TriMesh& mesh, Overlay& overlay) : mesh_(mesh), overlay_(overlay) {}
+  /// \pre the overlay has no crossings yet
+  FaceArrangement(const TriMesh& mesh, Overlay& overlay)
+      : mesh_(mesh), overlay_(overlay), position_(overlay.nodes.size()) {}
 
   /// \param first  dart that starts the outline at corner 0 of the face
   /// \param chords whose ends lie on the outline; at most one ends in each node but the corners
@@ -37,14 +39,18 @@ class FaceArrangement {
   Index next_crossing(Index corner) const;
   Index cross(Index corner, Index dart, Index face, const Vec3& barycentric);
   void label(Index edge, EdgeKind kind, Index line, Index chord);
+  /// The chord of the present face that a dart is a piece of; kNone where it is on the outline.
+  [[nodiscard]] Index chord_of(Index dart) const;
 
   const TriMesh& mesh_;
   Overlay& overlay_;
-  std::vector<Index> position_;      ///< [nodes] along the outline of the present face
-  std::vector<Index> outline_dart_;  ///< [nodes] outline dart that leaves the node
-  std::vector<Vec3> barycentric_;    ///< [nodes] in the present face
-  Index outline_length_ = 0;
-  std::vector<Placed> placed_;
+  std::vector<Index> position_;  ///< [nodes on edges] along the outline of the present face
+  /// Of the present face:
+  std::vector<Index> outline_dart_;  ///< [positions] outline dart that leaves the node there
+  std::vector<Vec3> barycentric_;    ///< [positions]
+  std::vector<Placed> placed_;       ///< [chords]
+  Index first_edge_ = 0;             ///< all edges from this one on are pieces of chords
+  std::vector<Index> chord_;         ///< [edges from first_edge_ on]
 };
 
 }  // namespace strake

@@ -81,10 +81,9 @@ bool find_starved(const TriMesh& mesh, const std::vector<Index>& component,
 void keep_triangles(const std::vector<Index>& component, const std::vector<char>& keep,
                     Overlay& overlay) {
   for (Index e = 0; e < overlay.graph.dart_count() / 2; ++e) {
-    const SurfaceNode& node = overlay.nodes[overlay.graph.from(2 * e)];
-    if (overlay.kind[e] == EdgeKind::surface && keep[component[node.face]] != 0) {
-      overlay.kind[e] = EdgeKind::line;
-    }
+    if (overlay.kind[e] != EdgeKind::surface) continue;
+    const Index face = overlay.nodes[overlay.graph.from(2 * e)].face;
+    if (keep[component[face]] != 0) overlay.kind[e] = EdgeKind::line;
   }
 }
 
@@ -184,15 +183,24 @@ Index most_sides(const MeshOptions& options) {
   return options.pure_quads ? std::min(most, Index{5}) : most;
 }
 
-Cells form_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions& options,
-                 const std::vector<Index>& component, const std::vector<char>& starved,
-                 Observer& observer) {
+/// The cells as the lines cut them out. \param cuts  set to the number of pieces that cut besides
+PolygonGraph cut_out_cells(const TriMesh& mesh, const LineSet& lines,
+                           const std::vector<Index>& component, const std::vector<char>& starved,
+                           Index& cuts, Observer& observer) {
   Overlay overlay = build_overlay(mesh, lines, observer);
   keep_triangles(component, starved, overlay);
   observer.report("forming cells", 0.4);
-  const Index cuts = reduce_to_lines(overlay);
+  cuts = reduce_to_lines(overlay);
+  return {mesh, overlay};
+}
+
+Cells form_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions& options,
+                 const std::vector<Index>& component, const std::vector<char>& starved,
+                 Observer& observer) {
+  Index cuts = 0;
+  Cells cells{cut_out_cells(mesh, lines, component, starved, cuts, observer), {}, {}, {}, {}, 0, 0};
+  cells.cut_pieces = cuts;
   observer.report("simplifying cells", 0.6);
-  Cells cells{PolygonGraph(mesh, overlay), {}, {}, {}, {}, 0, cuts};
   cells.simplified = simplify(
       cells.graph, [&](const SurfaceNode& node) { return local_size(mesh, lines, node); },
       kShortestEdge);

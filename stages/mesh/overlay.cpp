@@ -54,10 +54,11 @@ std::vector<EdgePoint> sorted_edge_points(const TriMesh& mesh, const LineSet& li
 class EdgeCutter {
  public:
   EdgeCutter(const TriMesh& mesh, const LineSet& lines, Overlay& overlay)
-      : mesh_(mesh), overlay_(overlay), points_(sorted_edge_points(mesh, lines)) {
+      : mesh_(mesh), overlay_(overlay) {
     point_node_.assign(lines.points.size(), kNone);
-    add_nodes(lines);
-    add_fragments();
+    const std::vector<EdgePoint> points = sorted_edge_points(mesh, lines);
+    add_nodes(lines, points);
+    add_fragments(points);
     mark_feature_lines(lines);
     link_faces();
     link_boundary();
@@ -71,42 +72,27 @@ class EdgeCutter {
   }
 
  private:
-  void add_nodes(const LineSet& lines) {
-    overlay_.nodes.resize(mesh_.positions.size());
-    for (Index v = 0; v < mesh_.vertex_count(); ++v) {
-      SurfaceNode& node = overlay_.nodes[v];
-      node.position = mesh_.positions[v];
-      node.face = TriMesh::face_of(mesh_.vertex_out[v]);
-      node.barycentric[mesh_.vertex_out[v] % 3] = 1;
-      node.vertex = v;
-    }
+  void add_nodes(const LineSet& lines, const std::vector<EdgePoint>& points) {
     for (std::size_t i = 0; i < lines.points.size(); ++i) {
       if (is_vertex_point(lines.points[i])) point_node_[i] = mesh_.from(lines.points[i].halfedge);
     }
-    for (const EdgePoint& point : points_) {
-      point_node_[point.point] = static_cast<Index>(overlay_.nodes.size());
-      SurfaceNode node;
-      const Index h = point.edge;
-      node.position = line_point_position(mesh_, {h, point.lambda});
-      node.face = TriMesh::face_of(h);
-      node.barycentric[h % 3] = 1 - point.lambda;
-      node.barycentric[TriMesh::next(h) % 3] = point.lambda;
-      overlay_.nodes.push_back(node);
+    for (const EdgePoint& point : points) {
+      point_node_[point.point] = overlay_.nodes.add_edge_point({point.edge, point.lambda});
     }
   }
 
-  void add_fragments() {
+  void add_fragments(const std::vector<EdgePoint>& points) {
     first_.assign(mesh_.halfedge_count(), kNone);
     count_.assign(mesh_.halfedge_count(), 0);
-    overlay_.graph.reserve(static_cast<std::size_t>(mesh_.halfedge_count()) + 4 * points_.size());
+    reserve_edges(points.size());
     std::size_t at = 0;
     for (Index h = 0; h < mesh_.halfedge_count(); ++h) {
       if (mesh_.edge_of(h) != h) continue;
       const EdgeKind kind = mesh_.is_boundary(h) ? EdgeKind::boundary : EdgeKind::surface;
       first_[h] = overlay_.graph.dart_count() / 2;
       Index from = mesh_.from(h);
-      for (; at < points_.size() && points_[at].edge == h; ++at) {
-        const Index node = point_node_[points_[at].point];
+      for (; at < points.size() && points[at].edge == h; ++at) {
+        const Index node = point_node_[points[at].point];
         overlay_.graph.add_edge(from, node);
         from = node;
       }
@@ -114,8 +100,18 @@ class EdgeCutter {
       count_[h] = overlay_.graph.dart_count() / 2 - first_[h];
       overlay_.kind.resize(overlay_.graph.dart_count() / 2, kind);
     }
-    overlay_.line.assign(overlay_.kind.size(), kNone);
-    overlay_.chord.assign(overlay_.kind.size(), kNone);
+    overlay_.line.resize(overlay_.kind.size(), kNone);
+  }
+
+  /// Each point divides an edge and begins a chord, which crossings divide further; what is not
+  /// used of the room for those costs nothing, and vectors that grow have twice their size for a
+  /// while.
+  void reserve_edges(std::size_t points) {
+    std::size_t edges = 3 * points;
+    for (Index h = 0; h < mesh_.halfedge_count(); ++h) edges += mesh_.edge_of(h) == h ? 1 : 0;
+    overlay_.graph.reserve(2 * edges);
+    overlay_.kind.reserve(edges);
+    overlay_.line.reserve(edges);
   }
 
   void mark_feature_lines(const LineSet& lines) {
@@ -174,7 +170,6 @@ class EdgeCutter {
 
   const TriMesh& mesh_;
   Overlay& overlay_;
-  std::vector<EdgePoint> points_;
   std::vector<Index> point_node_;  ///< [P] node of each point of the LineSet
   std::vector<Index> first_;       ///< [3F] first edge along a canonical half-edge
   std::vector<Index> count_;       ///< [3F] edges along it
@@ -261,9 +256,45 @@ void prune(Overlay& overlay) {
 
 }  // namespace
 
+SurfaceNode OverlayNodes::operator[](Index n) const {
+  if (n >= first_crossing()) return crossings_[n - first_crossing()];
+  SurfaceNode node;
+  if (n < mesh_->vertex_count()) {
+    const Index out = mesh_->vertex_out[n];
+    node.position = mesh_->positions[n];
+    node.face = TriMesh::face_of(out);
+    node.barycentric[out % 3] = 1;
+    node.vertex = n;
+  } else {
+    const LinePoint& point = edge_points_[n - mesh_->vertex_count()];
+    node.position = line_point_position(*mesh_, point);
+    node.face = TriMesh::face_of(point.halfedge);
+    node.barycentric[point.halfedge % 3] = 1 - point.lambda;
+    node.barycentric[TriMesh::next(point.halfedge) % 3] = point.lambda;
+  }
+  return node;
+}
+
+Index OverlayNodes::add_edge_point(const LinePoint& point) {
+  edge_points_.push_back(point);
+  return size() - 1;
+}
+
+Index OverlayNodes::add_crossing(Index face, const Vec3& barycentric) {
+  SurfaceNode node;
+  node.face = face;
+  node.position = Vec3::Zero();
+  for (int i = 0; i < 3; ++i) {
+    node.barycentric[i] = barycentric[i];
+    node.position += barycentric[i] * mesh_->positions[mesh_->faces[face][i]];
+  }
+  crossings_.push_back(node);
+  return size() - 1;
+}
+
 Overlay build_overlay(const TriMesh& mesh, const LineSet& lines, Observer& observer) {
   check_lines(mesh, lines);
-  Overlay overlay;
+  Overlay overlay(mesh);
   const EdgeCutter cutter(mesh, lines, overlay);
   observer.report("cutting faces", 0);
 

@@ -25,16 +25,40 @@ struct SurfaceNode {
   Index vertex = kNone;  ///< the mesh vertex it is, or kNone
 };
 
+/// The nodes of an overlay: the mesh vertices, then the points of lines on edges, then the
+/// crossings of chords inside faces. Those of the first two kinds, nearly all, are made when asked
+/// for.
+class OverlayNodes {
+ public:
+  explicit OverlayNodes(const TriMesh& mesh) : mesh_(&mesh) {}
+
+  [[nodiscard]] Index size() const {
+    return first_crossing() + static_cast<Index>(crossings_.size());
+  }
+  [[nodiscard]] SurfaceNode operator[](Index n) const;
+  /// \pre no crossing was added yet, and the point lies inside an edge \return the node
+  Index add_edge_point(const LinePoint& point);
+  /// \return the node
+  Index add_crossing(Index face, const Vec3& barycentric);
+
+ private:
+  [[nodiscard]] Index first_crossing() const {
+    return mesh_->vertex_count() + static_cast<Index>(edge_points_.size());
+  }
+
+  const TriMesh* mesh_;  ///< not owned
+  std::vector<LinePoint> edge_points_;
+  std::vector<SurfaceNode> crossings_;
+};
+
 /// The common subdivision of a triangle mesh and the lines on it.
-///
-/// Nodes are the mesh vertices (first), then the points of lines on edges, then the crossings of
-/// chords inside faces.
 struct Overlay {
+  explicit Overlay(const TriMesh& mesh) : nodes(mesh) {}
+
   DartGraph graph;
-  std::vector<SurfaceNode> nodes;
+  OverlayNodes nodes;
   std::vector<EdgeKind> kind;  ///< [edges]
   std::vector<Index> line;     ///< [edges] line of the LineSet, kNone on surface edges
-  std::vector<Index> chord;    ///< [edges] chord within its face while faces are cut; kNone else
 };
 
 /// Cuts the mesh along all lines.

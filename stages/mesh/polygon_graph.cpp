@@ -25,16 +25,16 @@ std::vector<char> kept_nodes(const TriMesh& mesh, const Overlay& overlay) {
     }
     some_dart[n] = d;
   }
-  for (std::size_t n = 0; n < overlay.nodes.size(); ++n) {
-    const Index v = overlay.nodes[n].vertex;
+  for (Index n = 0; n < overlay.nodes.size(); ++n) {
     if (degree[n] == 0) continue;
+    const Index v = overlay.nodes[n].vertex;
     const EdgeKind kind = overlay.kind[DartGraph::edge_of(some_dart[n])];
     const bool on_barrier = kind == EdgeKind::feature || kind == EdgeKind::boundary;
     if (degree[n] != 2 || (on_barrier && v != kNone && mesh.is_corner[v] != 0)) kept[n] = 1;
   }
   // Rings without any such node keep an arbitrary one.
   std::vector<char> seen(overlay.nodes.size(), 0);
-  for (std::size_t n = 0; n < overlay.nodes.size(); ++n) {
+  for (Index n = 0; n < overlay.nodes.size(); ++n) {
     if (degree[n] != 2 || kept[n] != 0 || seen[n] != 0) continue;
     bool has_kept = false;
     for (const Index direction : {some_dart[n], graph.rotate_ccw(some_dart[n])}) {

@@ -79,7 +79,7 @@ std::string arrangement_fault(const TriMesh& mesh, const LineSet& lines, const O
   Index edge_points = 0;
   for (const LinePoint& p : lines.points) edge_points += is_vertex_point(p) ? 0 : 1;
   const Index first_crossing = mesh.vertex_count() + edge_points;
-  const auto crossings = static_cast<Index>(overlay.nodes.size()) - first_crossing;
+  const auto crossings = overlay.nodes.size() - first_crossing;
   if (crossings != static_cast<Index>(expected.size())) {
     return std::to_string(crossings) + " crossings instead of " + std::to_string(expected.size());
   }
