@@ -300,7 +300,7 @@ py::object make_polygons(const Array<double>& vertices, const Array<Index>& offs
 
 }  // namespace
 
-py::object held(std::shared_ptr<const Value> value) {
+py::object held(std::shared_ptr<Value> value) {
   return std::visit(
       [&]<class T>(const T&) -> py::object {
         if constexpr (std::is_same_v<T, OpenedMesh> || std::is_same_v<T, TensorPart>) {

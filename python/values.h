@@ -12,7 +12,7 @@ namespace strake::python {
 
 /// A value of the pipeline as an object of Python.
 struct Held {
-  std::shared_ptr<const Value> value;
+  std::shared_ptr<Value> value;
 };
 
 /// The same, of a kind that is known: what its class in Python wraps.
@@ -22,10 +22,10 @@ struct HeldAs : Held {
 };
 
 /// The object of the right class for a value.
-pybind11::object held(std::shared_ptr<const Value> value);
+pybind11::object held(std::shared_ptr<Value> value);
 template <class T>
 pybind11::object hold(T value) {
-  return held(std::make_shared<const Value>(std::move(value)));
+  return held(std::make_shared<Value>(std::move(value)));
 }
 
 /// Adds the classes of values and the functions that make some of them from arrays.

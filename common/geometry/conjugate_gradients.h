@@ -51,6 +51,15 @@ std::array<double, 2> sum_over(Index n, Term term) {
 
 }  // namespace conjugate_gradients_detail
 
+/// What solving takes besides the system; solves of the same size one after the other may share it,
+/// which spares fetching the memory anew.
+template <class Value>
+struct SolverVectors {
+  std::vector<Value> residual;
+  std::vector<Value> direction;
+  std::vector<Value> product;
+};
+
 /// Solves a Hermitian, positive definite system A x = right by preconditioned conjugate gradients.
 ///
 /// Works in parallel. Sums are taken over blocks of a fixed size and added up in order, so the
@@ -60,18 +69,18 @@ std::array<double, 2> sum_over(Index n, Term term) {
 /// \param precondition  (i, value) -> row i of an approximate inverse of A's diagonal times value
 /// \param dot           (a, b) -> real scalar product of two values
 /// \param x             [n] first guess, then the solution
+/// \param vectors       of any content
 /// \return number of iterations
 template <class Value, class RowTimes, class Precondition, class Dot>
 Index conjugate_gradients(const std::vector<Value>& right, const SolverOptions& options,
                           RowTimes row_times, Precondition precondition, Dot dot,
-                          std::vector<Value>& x) {
+                          std::vector<Value>& x, SolverVectors<Value>& vectors) {
   using conjugate_gradients_detail::for_blocks;
   using conjugate_gradients_detail::sum_over;
   using Sums = std::array<double, 2>;
   const auto n = static_cast<Index>(right.size());
-  std::vector<Value> residual(right.size());
-  std::vector<Value> direction(right.size());
-  std::vector<Value> product(right.size());
+  auto& [residual, direction, product] = vectors;
+  for (auto* vector : {&residual, &direction, &product}) vector->resize(right.size());
 
   const auto [right_norm2, first_norm2] = sum_over(n, [&](Index i) -> Sums {
     residual[i] = right[i] - row_times(i, x);

@@ -97,7 +97,7 @@ void check_paths(const Stage& stage, const Paths& paths) {
 }
 
 Input load_input(PortKind kind, const std::string& path) {
-  Input input = {std::make_shared<const Value>(load_value(kind, path)), path, content_digest(path)};
+  Input input = {std::make_shared<Value>(load_value(kind, path)), path, content_digest(path)};
   if (is_artifact(path)) input.provenance = read_artifact_info(path).provenance;
   return input;
 }
@@ -122,7 +122,7 @@ void make_output(const Stage& stage, const Paths& paths, const ShellOptions& she
                  StageRecord& record) {
   ConsoleObserver console = shell.console();
   console.begin(stage.name);
-  const Inputs inputs = load_inputs(stage, paths, record.provenance, console);
+  Inputs inputs = load_inputs(stage, paths, record.provenance, console);
   StageResult result = run_stage(stage, inputs, console);
   record.report = std::move(result.report);
   for (const std::string& warning : record.report.warnings()) console.say("warning: " + warning);

@@ -12,7 +12,7 @@ const Option& Stage::option(const std::string& option_name) const {
   throw Error(ExitCode::internal, "stage " + name + " has no option " + option_name);
 }
 
-StageResult run_stage(const Stage& stage, const Inputs& inputs, Observer& observer) {
+StageResult run_stage(const Stage& stage, Inputs& inputs, Observer& observer) {
   const Port* mesh_port = nullptr;
   for (const Port& port : stage.inputs) {
     if (port.kind == PortKind::mesh) mesh_port = &port;

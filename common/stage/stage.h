@@ -26,7 +26,7 @@ struct Port {
 
 /// A value that goes into a stage, and what is known of it.
 struct Input {
-  std::shared_ptr<const Value> value;
+  std::shared_ptr<Value> value;               ///< never changed while others hold it
   std::string origin;                         ///< file or stage it comes from, for messages
   std::string digest = {};                    ///< content digest of the file, if there is one
   std::optional<Provenance> provenance = {};  ///< of an artifact
@@ -51,6 +51,14 @@ class Inputs {
   template <class T>
   [[nodiscard]] const T& get(const std::string& port) const {
     return std::get<T>(*at(port).value);
+  }
+  /// The first, for good: moved out where nobody else holds it, so that its memory can be used for
+  /// other things, else copied. \pre has(port), and the port is not asked again
+  template <class T>
+  [[nodiscard]] T take(const std::string& port) {
+    const std::shared_ptr<Value> value = std::move(values_.at(port).front().value);
+    if (value.use_count() == 1) return std::get<T>(std::move(*value));
+    return std::get<T>(*value);
   }
   /// nullptr where the port was not given, or something else.
   template <class T>
@@ -80,8 +88,8 @@ struct Stage {
   std::vector<Port> inputs;
   Port output;
   OptionList options;
-  std::vector<std::string> defaults;  ///< of `options`, as text
-  std::function<StageResult(const Inputs&, Observer&)> run;
+  std::vector<std::string> defaults;                   ///< of `options`, as text
+  std::function<StageResult(Inputs&, Observer&)> run;  ///< may take its inputs
 
   /// The option of that name. \pre it exists
   [[nodiscard]] const Option& option(const std::string& option_name) const;
@@ -94,7 +102,7 @@ Stage with_options(Stage stage, Run run) {
   auto options = std::make_shared<Options>();
   stage.options = options->declare();
   for (const Option& option : stage.options) stage.defaults.push_back(option.value());
-  stage.run = [options, run](const Inputs& inputs, Observer& observer) {
+  stage.run = [options, run](Inputs& inputs, Observer& observer) {
     return run(inputs, *options, observer);
   };
   return stage;
@@ -102,7 +110,7 @@ Stage with_options(Stage stage, Run run) {
 
 /// Checks that the inputs belong together, runs the stage, and checks what its result promises.
 /// \throw PreconditionError, Error(internal) where the result is unsound, and what the stage throws
-StageResult run_stage(const Stage& stage, const Inputs& inputs, Observer& observer);
+StageResult run_stage(const Stage& stage, Inputs& inputs, Observer& observer);
 
 /// The stage, its version and its resolved options; inputs are to be filled in by the caller.
 Provenance provenance_of(const Stage& stage);

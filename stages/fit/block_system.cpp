@@ -58,6 +58,7 @@ std::vector<Vec3> BlockSystem::solve() const {
   std::transform(diagonal_.begin(), diagonal_.end(), inverse.begin(),
                  [](const Mat3& block) { return block.inverse(); });
   std::vector<Vec3> x(diagonal_.size(), Vec3::Zero());
+  SolverVectors<Vec3> vectors;
   conjugate_gradients(
       right_, kSolver,
       [this](Index i, const std::vector<Vec3>& y) -> Vec3 {
@@ -68,7 +69,7 @@ std::vector<Vec3> BlockSystem::solve() const {
         return sum;
       },
       [&inverse](Index i, const Vec3& value) -> Vec3 { return inverse[i] * value; },
-      [](const Vec3& a, const Vec3& b) { return a.dot(b); }, x);
+      [](const Vec3& a, const Vec3& b) { return a.dot(b); }, x, vectors);
   return x;
 }
 

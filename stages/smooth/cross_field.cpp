@@ -45,17 +45,26 @@ struct CrossSystem {
   std::vector<double> hold;        ///< [W] how strongly, where the loss is quadratic
 };
 
-CrossSystem cross_system(const TriMesh& mesh, const WedgeGraph& graph,
-                         const std::vector<double>& areas, double stiffness,
+/// What the solves share that follow each other.
+struct Workspace {
+  std::vector<Complex> right;
+  std::vector<double> holds;
+  SolverVectors<Complex> solver;
+};
+
+CrossSystem cross_system(const TriMesh& mesh, const WedgeGraph& graph, double stiffness,
                          const GuidePull& guides, const PrincipalField& field) {
   const auto n = static_cast<std::size_t>(graph.size());
   std::vector<TangentFrame> frames(n);
-  CrossSystem system = {{graph.offsets, graph.neighbours,
-                         std::vector<Complex>(graph.neighbours.size()), std::vector<double>(n)},
-                        std::vector<double>(n),
-                        std::vector<Complex>(n),
-                        std::vector<Complex>(n),
-                        std::vector<double>(n)};
+  const std::vector<double> areas = wedge_areas(mesh);
+  const std::vector<Index> halfedges = graph_halfedges(mesh, graph);
+  CrossSystem system = {
+      {graph.offsets, graph.neighbours, std::vector<std::complex<float>>(graph.neighbours.size()),
+       std::vector<double>(n)},
+      std::vector<double>(n),
+      std::vector<Complex>(n),
+      std::vector<Complex>(n),
+      std::vector<double>(n)};
   tbb::parallel_for(Index{0}, graph.size(), [&](Index w) {
     frames[w] = tangent_frame(field.normal[w]);
     system.principal[w] = cross_power(frames[w].tangent_from_world(field.t_min[w]));
@@ -69,7 +78,7 @@ CrossSystem cross_system(const TriMesh& mesh, const WedgeGraph& graph,
   tbb::parallel_for(Index{0}, graph.size(), [&](Index w) {
     double diagonal = 0;
     for (Index at = graph.offsets[w]; at < graph.offsets[w + 1]; ++at) {
-      const Index h = graph.halfedges[at];
+      const Index h = halfedges[at];
       const Index other = graph.neighbours[at];
       const Vec3 edge = mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)];
       const Complex here = cross_power(frames[w].tangent_from_world(edge));
@@ -82,8 +91,9 @@ CrossSystem cross_system(const TriMesh& mesh, const WedgeGraph& graph,
       } else {
         weight += dirichlet_weight(mesh, mesh.twin[h]);
       }
-      diagonal += weight;
-      system.matrix.values[at] = -weight * here * std::conj(there);
+      const std::complex<float> value(-weight * (here * std::conj(there)));
+      system.matrix.values[at] = value;
+      diagonal += std::abs(Complex(value));  // so rounding leaves no negative eigenvalue
     }
     if (!guides.distance.empty() && guides.distance[w] == 0) {
       diagonal += kGuideWeight;
@@ -99,16 +109,18 @@ CrossSystem cross_system(const TriMesh& mesh, const WedgeGraph& graph,
 
 /// Solves for the crosses with each hold weakened as the loss wants it at the angle between
 /// the last solution and the principal direction; not at all where `solution` is that direction.
-Index solve_reweighted(CrossSystem& system, double tolerance, std::vector<Complex>& solution) {
-  std::vector<Complex> right = system.right;
-  std::vector<double> holds(solution.size());
+Index solve_reweighted(CrossSystem& system, double tolerance, std::vector<Complex>& solution,
+                       Workspace& space) {
+  auto& [right, holds, vectors] = space;
+  right.resize(solution.size());
+  holds.resize(solution.size());
   tbb::parallel_for(Index{0}, static_cast<Index>(solution.size()), [&](Index w) {
     const double angle = std::arg(solution[w] * std::conj(system.principal[w])) / 4;
     const double share = 1 / (1 + angle * angle / (kLossAngle * kLossAngle));
     const double hold = system.hold[w] * share * share;
     holds[w] = hold;
     system.matrix.diagonal[w] = system.diagonal[w] + hold;
-    right[w] += hold * system.principal[w];
+    right[w] = system.right[w] + hold * system.principal[w];
   });
   double hold_norm2 = 0;
   double right_norm2 = 0;
@@ -118,22 +130,28 @@ Index solve_reweighted(CrossSystem& system, double tolerance, std::vector<Comple
   }
   const double share = right_norm2 > 0 ? std::sqrt(hold_norm2 / right_norm2) : 1;
   const SolverOptions options = {.tolerance = tolerance * std::clamp(share, kLeastShare, 1.0)};
-  return solve(system.matrix, right, options, solution);
+  return solve(system.matrix, right, options, solution, vectors);
+}
+
+/// [W] the cross of every wedge. \param iterations  set to the steps that solving took
+std::vector<Complex> solve_crosses(CrossSystem system, Index& iterations) {
+  std::vector<Complex> solution = system.principal;
+  Workspace space;
+  iterations = 0;
+  for (int round = 0; round <= kReweightings; ++round) {
+    const double tolerance = round < kReweightings ? kRoughTolerance : kTolerance;
+    iterations += solve_reweighted(system, tolerance, solution, space);
+  }
+  return solution;
 }
 
 }  // namespace
 
-Index extend_cross_field(const TriMesh& mesh, const WedgeGraph& graph,
-                         const std::vector<double>& areas, double stiffness,
+Index extend_cross_field(const TriMesh& mesh, const WedgeGraph& graph, double stiffness,
                          const GuidePull& guides, PrincipalField& field) {
-  CrossSystem system = cross_system(mesh, graph, areas, stiffness, guides, field);
-  std::vector<Complex> solution = system.principal;
   Index iterations = 0;
-  for (int round = 0; round <= kReweightings; ++round) {
-    iterations +=
-        solve_reweighted(system, round < kReweightings ? kRoughTolerance : kTolerance, solution);
-  }
-
+  const std::vector<Complex> solution =
+      solve_crosses(cross_system(mesh, graph, stiffness, guides, field), iterations);
   field.cross.resize(solution.size());
   tbb::parallel_for(Index{0}, graph.size(), [&](Index w) {
     const TangentFrame frame = tangent_frame(field.normal[w]);

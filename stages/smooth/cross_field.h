@@ -25,11 +25,9 @@ namespace strake {
 /// Guides hold like features on the faces that they pass. Within their reach their direction takes
 /// the place of the principal one, with a hold that fades out towards its end.
 /// \param graph   of the mesh
-/// \param areas   [W]
 /// \param guides  empty for none
 /// \return number of iterations of the linear solver, of all solves together
-Index extend_cross_field(const TriMesh& mesh, const WedgeGraph& graph,
-                         const std::vector<double>& areas, double stiffness,
+Index extend_cross_field(const TriMesh& mesh, const WedgeGraph& graph, double stiffness,
                          const GuidePull& guides, PrincipalField& field);
 
 }  // namespace strake

@@ -49,9 +49,9 @@ GuidePull guide_pull(const TriMesh& mesh, const WedgeGraph& graph, const Princip
     queue.pop();
     if (reached > pull.distance[w]) continue;
     for (Index at = graph.offsets[w]; at < graph.offsets[w + 1]; ++at) {
-      const Index h = graph.halfedges[at];
       const Index other = graph.neighbours[at];
-      const double length = (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).norm();
+      const double length =
+          (mesh.positions[mesh.wedge_vertex[other]] - mesh.positions[mesh.wedge_vertex[w]]).norm();
       const double next = reached + length / reach;
       if (!(next < pull.distance[other])) continue;
       pull.distance[other] = next;

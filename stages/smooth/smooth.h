@@ -26,11 +26,11 @@ struct SmoothResult {
 /// Smooths curvature tensors from confident into non-confident areas and extracts their frames.
 /// Paper: [MK04] section 4.1 (confidence, operator) and section 2 (frame realignment).
 /// Deterministic for any thread count.
+/// \param tensor  given up to spare its memory
 /// \param guides  lines that `cross` is to follow; nullptr for none
 /// \throw UsageError where there are guides but no cross field; InputError where a guide is too far
 ///        from the surface
-SmoothResult smooth_tensors(const TriMesh& mesh, const TensorField& tensor,
-                            const SmoothOptions& options, Observer& observer,
-                            const GuideLines* guides = nullptr);
+SmoothResult smooth_tensors(const TriMesh& mesh, TensorField tensor, const SmoothOptions& options,
+                            Observer& observer, const GuideLines* guides = nullptr);
 
 }  // namespace strake

@@ -10,11 +10,13 @@ namespace strake {
 struct WedgeGraph {
   std::vector<Index> offsets;     ///< [W + 1] rows
   std::vector<Index> neighbours;  ///< [E] wedges
-  std::vector<Index> halfedges;   ///< [E] one that joins the two wedges, in either direction
 
   [[nodiscard]] Index size() const { return static_cast<Index>(offsets.size()) - 1; }
 };
 
 WedgeGraph wedge_graph(const TriMesh& mesh);
+
+/// [E] A half-edge that joins each wedge of the graph and its neighbour, in either direction.
+std::vector<Index> graph_halfedges(const TriMesh& mesh, const WedgeGraph& graph);
 
 }  // namespace strake

@@ -82,6 +82,9 @@ std::string Chain::run(Session& session) const {
     session.run(*stage);
     session.keep(*stage);
   }
+  // As large as all that is needed from here on.
+  session.withdraw("input");
+  session.withdraw(tensor.output.name);
   return reach_goal(session);
 }
 

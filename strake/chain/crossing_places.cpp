@@ -39,14 +39,10 @@ bool CrossingPlaces::is_crossed_by_itself(const Vec3& place, double reach) {
     is_known_ = true;
     FaceTriangles triangles{mesh_.faces, std::vector<Index>(mesh_.faces.size())};
     std::iota(triangles.face.begin(), triangles.face.end(), 0);
-    std::vector<Vec3> corners;
-    std::vector<std::array<Index, 3>> own;
     for (const Index f : crossing_faces(mesh_.positions, triangles)) {
-      const auto first = static_cast<Index>(corners.size());
-      for (const Index v : mesh_.faces[f]) corners.push_back(mesh_.positions[v]);
-      own.push_back({first, first + 1, first + 2});
+      crossing_.push_back(mesh_.faces[f]);
     }
-    if (!own.empty()) own_ = std::make_unique<SurfaceDistance>(std::move(corners), std::move(own));
+    if (!crossing_.empty()) own_ = std::make_unique<SurfaceDistance>(mesh_.positions, crossing_);
   }
   return own_ != nullptr && own_->closest_within(place, reach).triangle != kNone;
 }

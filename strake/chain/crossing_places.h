@@ -24,8 +24,9 @@ class CrossingPlaces {
   bool is_crossed_by_itself(const Vec3& place, double reach);
 
   const TriMesh& mesh_;
-  bool is_known_ = false;                 ///< whether `own_` is
-  std::unique_ptr<SurfaceDistance> own_;  ///< the faces of the input that cross; nullptr: none
+  bool is_known_ = false;                       ///< whether `own_` is
+  std::vector<std::array<Index, 3>> crossing_;  ///< the faces of the input that cross
+  std::unique_ptr<SurfaceDistance> own_;        ///< of those; nullptr: none
 };
 
 }  // namespace strake

@@ -7,7 +7,7 @@ namespace strake {
 
 void Session::provide(const std::string& port, Value value, const std::string& origin,
                       const std::string& digest) {
-  values_[port] = {std::make_shared<const Value>(std::move(value)), origin, digest};
+  values_[port] = {std::make_shared<Value>(std::move(value)), origin, digest};
 }
 
 void Session::provide_as(const std::string& port, Value value, const std::string& source) {

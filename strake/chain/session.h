@@ -60,7 +60,7 @@ class Session {
 
  private:
   struct Entry {
-    std::shared_ptr<const Value> value;
+    std::shared_ptr<Value> value;
     std::string origin;
     std::string digest;  ///< of its file; "" where there is none
   };

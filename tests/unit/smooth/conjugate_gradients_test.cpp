@@ -21,7 +21,8 @@ struct Problem {
     for (Index i = 0; i < n; ++i) {
       for (const Index j : {(i + 1) % n, (i * 7 + 3) % n}) {
         if (i == j) continue;
-        const Complex value(number(random), number(random));
+        const std::complex<float> rounded(Complex(number(random), number(random)));
+        const Complex value(rounded);
         rows[i].emplace_back(j, value);
         rows[j].emplace_back(i, std::conj(value));
         diagonal[i] += std::abs(value);
@@ -33,7 +34,7 @@ struct Problem {
     for (const auto& row : rows) {
       for (const auto& [column, value] : row) {
         columns.push_back(column);
-        values.push_back(value);
+        values.emplace_back(value);
       }
       offsets.push_back(static_cast<Index>(columns.size()));
     }
@@ -44,13 +45,14 @@ struct Problem {
     std::vector<Complex> x(right.size());
     SolverOptions options;
     options.tolerance = tolerance;
-    EXPECT_LT(solve(matrix(), right, options, x), options.max_iterations);
+    SolverVectors<Complex> vectors;
+    EXPECT_LT(solve(matrix(), right, options, x, vectors), options.max_iterations);
     return x;
   }
 
   std::vector<Index> offsets;
   std::vector<Index> columns;
-  std::vector<Complex> values;
+  std::vector<std::complex<float>> values;
   std::vector<double> diagonal;
   std::vector<Complex> right;
 };
@@ -61,7 +63,7 @@ TEST(ConjugateGradients, SolveTheSystem) {
   for (Index i = 0; i < 60; ++i) {
     dense(i, i) = problem.diagonal[i];
     for (Index at = problem.offsets[i]; at < problem.offsets[i + 1]; ++at) {
-      dense(i, problem.columns[at]) += problem.values[at];
+      dense(i, problem.columns[at]) += Complex(problem.values[at]);
     }
   }
   ASSERT_LT((dense - dense.adjoint()).norm(), 1e-14);
@@ -77,10 +79,12 @@ TEST(ConjugateGradients, StopAtTheTolerance) {
   const Problem problem(20000);
   std::vector<Complex> loose(problem.right.size());
   std::vector<Complex> tight(problem.right.size());
-  const Index few = solve(problem.matrix(), problem.right, {1e-2, 1000}, loose);
-  const Index many = solve(problem.matrix(), problem.right, {1e-8, 1000}, tight);
+  SolverVectors<Complex> vectors;
+  const Index few = solve(problem.matrix(), problem.right, {1e-2, 1000}, loose, vectors);
+  const Index many = solve(problem.matrix(), problem.right, {1e-8, 1000}, tight, vectors);
   EXPECT_LT(few, many);
-  EXPECT_EQ(solve(problem.matrix(), problem.right, {1e-2, 1000}, tight), 0) << "solved already";
+  EXPECT_EQ(solve(problem.matrix(), problem.right, {1e-2, 1000}, tight, vectors), 0)
+      << "solved already";
 }
 
 TEST(ConjugateGradients, GiveTheSameBitsForAnyThreadCount) {
