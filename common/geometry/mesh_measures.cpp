@@ -2,6 +2,11 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+
 #include "common/geometry/angles.h"
 #include "common/geometry/frames.h"
 
@@ -31,59 +36,69 @@ bool has_own_normal(const TriMesh& mesh, Index face) {
   return length > kSliverRatio * longest && length > 0;
 }
 
-std::vector<Vec3> face_normals(const TriMesh& mesh) {
-  const Index count = mesh.face_count();
-  std::vector<Vec3> normals(count, Vec3::Zero());
-  std::vector<char> known(count, 0);
-  tbb::parallel_for(Index{0}, count, [&](Index f) {
-    if (!has_own_normal(mesh, f)) return;
-    const Vec3 n = face_cross(mesh, f);
-    normals[f] = n / n.norm();
-    known[f] = 1;
-  });
-  // Slivers: spread outwards from known faces, front by front, so that the result does not depend
-  // on the order of faces within a front.
-  std::vector<Index> open;
-  for (Index f = 0; f < count; ++f) {
-    if (!known[f]) open.push_back(f);
+FaceNormals::FaceNormals(const TriMesh& mesh) : mesh_(&mesh) {
+  std::vector<std::uint8_t> is_sliver(mesh.faces.size(), 0);
+  tbb::parallel_for(Index{0}, mesh.face_count(),
+                    [&](Index f) { is_sliver[f] = has_own_normal(mesh, f) ? 0 : 1; });
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    if (is_sliver[f] != 0) slivers_.push_back(f);
   }
+  sliver_normals_.resize(slivers_.size(), Vec3::Zero());
+  // Outwards from known faces, front by front, so that the result does not depend on the order of
+  // faces within a front.
+  std::vector<std::size_t> open(slivers_.size());
+  std::iota(open.begin(), open.end(), std::size_t{0});
   while (!open.empty()) {
-    std::vector<Index> rest;
-    std::vector<std::pair<Index, Vec3>> found;
-    for (const Index f : open) {
+    std::vector<std::size_t> rest;
+    std::vector<std::pair<std::size_t, Vec3>> found;
+    for (const std::size_t at : open) {
+      const Index f = slivers_[at];
       Vec3 sum = Vec3::Zero();
       for (Index h = 3 * f; h < 3 * f + 3; ++h) {
         const Index t = mesh.twin[h];
-        if (t == kNone || !known[TriMesh::face_of(t)]) continue;
-        sum += normals[TriMesh::face_of(t)] *
+        if (t == kNone) continue;
+        sum += (*this)[TriMesh::face_of(t)] *
                (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).norm();
       }
       if (sum.norm() > 0) {
-        found.emplace_back(f, sum.normalized());
+        found.emplace_back(at, sum.normalized());
       } else {
-        rest.push_back(f);
+        rest.push_back(at);
       }
     }
     if (found.empty()) {
-      for (const Index f : rest) normals[f] = Vec3::UnitZ();
+      for (const std::size_t at : rest) sliver_normals_[at] = Vec3::UnitZ();
       break;
     }
-    for (const auto& [f, n] : found) {
-      normals[f] = n;
-      known[f] = 1;
-    }
+    for (const auto& [at, normal] : found) sliver_normals_[at] = normal;
     open = std::move(rest);
   }
+}
+
+std::vector<Vec3> FaceNormals::all() const {
+  std::vector<Vec3> normals(mesh_->faces.size());
+  tbb::parallel_for(Index{0}, mesh_->face_count(), [&](Index f) { normals[f] = (*this)[f]; });
   return normals;
 }
 
-std::vector<Vec3> wedge_normals(const TriMesh& mesh, const std::vector<Vec3>& face_normals) {
+Vec3 FaceNormals::own(Index face) const {
+  const Vec3 n = face_cross(*mesh_, face);
+  return n / n.norm();
+}
+
+Vec3 FaceNormals::of_sliver(Index face) const {
+  const auto found = std::lower_bound(slivers_.begin(), slivers_.end(), face);
+  return sliver_normals_[static_cast<std::size_t>(found - slivers_.begin())];
+}
+
+std::vector<Vec3> wedge_normals(const TriMesh& mesh, const FaceNormals& face_normals) {
   std::vector<Vec3> normals(mesh.wedge_count(), Vec3::Zero());
   std::vector<double> angles(static_cast<std::size_t>(mesh.halfedge_count()));
   tbb::parallel_for(Index{0}, mesh.halfedge_count(),
                     [&](Index h) { angles[h] = corner_angle(mesh, h); });
-  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
-    normals[mesh.wedge_of(h)] += face_normals[TriMesh::face_of(h)] * angles[h];
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const Vec3 normal = face_normals[f];
+    for (Index h = 3 * f; h < 3 * f + 3; ++h) normals[mesh.wedge_of(h)] += normal * angles[h];
   }
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
     Vec3& n = normals[mesh.wedge_of(h)];

@@ -9,12 +9,32 @@ namespace strake {
 /// Whether a face has an area to speak of, and so a normal that is not taken from its neighbours.
 bool has_own_normal(const TriMesh& mesh, Index face);
 
-/// [F] unit normals. A face without area takes the normal of its neighbours across its longest
-/// edges, so that slivers neither bend the surface nor turn over.
-std::vector<Vec3> face_normals(const TriMesh& mesh);
+/// Unit normals of faces, computed when asked for: kept, they would take a third of the memory of
+/// the mesh. A face without area takes the normal of its neighbours across its longest edges, so
+/// that slivers neither bend the surface nor turn over.
+class FaceNormals {
+ public:
+  /// \param mesh  kept by reference
+  explicit FaceNormals(const TriMesh& mesh);
+
+  [[nodiscard]] Vec3 operator[](Index face) const {
+    if (!slivers_.empty() && !has_own_normal(*mesh_, face)) return of_sliver(face);
+    return own(face);
+  }
+  /// [F] All of them, to be looked up often.
+  [[nodiscard]] std::vector<Vec3> all() const;
+
+ private:
+  [[nodiscard]] Vec3 own(Index face) const;
+  [[nodiscard]] Vec3 of_sliver(Index face) const;
+
+  const TriMesh* mesh_;
+  std::vector<Index> slivers_;        ///< ascending
+  std::vector<Vec3> sliver_normals_;  ///< of those; zero while not known
+};
 
 /// [W] unit normals, angle-weighted over the faces of each wedge.
-std::vector<Vec3> wedge_normals(const TriMesh& mesh, const std::vector<Vec3>& face_normals);
+std::vector<Vec3> wedge_normals(const TriMesh& mesh, const FaceNormals& face_normals);
 
 /// [W] a third of the area of each wedge's faces.
 std::vector<double> wedge_areas(const TriMesh& mesh);

@@ -35,10 +35,14 @@ EdgeTriangles edges_as_triangles(const PolyEdges& edges, bool boundary_only) {
 /// The candidate's edges, to ask which of them keeps a place of a reference line.
 class KeepingEdges {
  public:
-  /// \param lines  the reference lines themselves
+  /// \param positions  kept by reference
+  /// \param lines      the reference lines themselves
   KeepingEdges(const std::vector<Vec3>& positions, EdgeTriangles triangles,
                const SurfaceDistance& lines, double reach)
-      : edges_(positions, std::move(triangles)), reach_(reach), farthest_(reach) {
+      : triangles_(std::move(triangles)),
+        edges_(positions, triangles_),
+        reach_(reach),
+        farthest_(reach) {
     const auto is_on_line = [&](Index v) {
       return lines.closest_if(positions[v], reach, [](Index) { return true; }).triangle != kNone;
     };
@@ -82,6 +86,7 @@ class KeepingEdges {
     return distance <= (share >= 0 && share <= 1 ? reach_of_[e] : reach_);
   }
 
+  EdgeTriangles triangles_;
   SurfaceDistance edges_;
   double reach_;
   double farthest_;
@@ -102,7 +107,7 @@ void report_kind(const std::string& kind, const TriMesh& reference,
   double kept = 0;
   if (!triangles.empty()) {
     const KeepingEdges edges(positions, std::move(triangles),
-                             SurfaceDistance(reference.positions, std::move(lines)),
+                             SurfaceDistance(reference.positions, lines),
                              kReach * reference.diagonal);
     std::vector<double> lengths(halfedges.size());
     tbb::parallel_for(std::size_t{0}, halfedges.size(), [&](std::size_t i) {

@@ -18,6 +18,7 @@ constexpr std::array<double, 3> kStep = {0.8191725133961645, 0.6710436067037893,
 
 double fraction(double x) { return x - std::floor(x); }
 
+/// Indices of the triangles with an area; none where all have one.
 std::vector<Index> triangles_with_area(const std::vector<Vec3>& positions,
                                        const std::vector<std::array<Index, 3>>& triangles,
                                        const char* what) {
@@ -33,7 +34,7 @@ std::vector<Index> triangles_with_area(const std::vector<Vec3>& positions,
     if (area > kNoArea * longest2 && std::isfinite(area)) kept.push_back(static_cast<Index>(t));
   }
   if (kept.empty()) throw PreconditionError(std::string(what) + " has no face with an area");
-  return kept;
+  return kept.size() < triangles.size() ? kept : std::vector<Index>();
 }
 
 std::vector<std::array<Index, 3>> selected(const std::vector<std::array<Index, 3>>& triangles,
@@ -50,17 +51,21 @@ MeasuredSurface::MeasuredSurface(const std::vector<Vec3>& positions,
                                  const std::vector<std::array<Index, 3>>& triangles,
                                  const char* what)
     : sources_(triangles_with_area(positions, triangles, what)),
-      distance_(positions, selected(triangles, sources_)) {
-  normals_.reserve(sources_.size());
-  area_up_to_.reserve(sources_.size());
+      kept_(selected(triangles, sources_)),
+      distance_(positions, kept_.empty() ? triangles : kept_) {
+  const auto count = static_cast<Index>(distance_.triangles().size());
+  area_up_to_.reserve(distance_.triangles().size());
   double sum = 0;
-  for (const auto& corners : distance_.triangles()) {
-    const Vec3& a = positions[corners[0]];
-    const Vec3 normal = (positions[corners[1]] - a).cross(positions[corners[2]] - a);
-    sum += normal.norm() / 2;
-    normals_.push_back(normal.normalized());
+  for (Index t = 0; t < count; ++t) {
+    sum += cross(t).norm() / 2;
     area_up_to_.push_back(sum);
   }
+}
+
+Vec3 MeasuredSurface::cross(Index triangle) const {
+  const auto& [a, b, c] = distance_.triangles()[triangle];
+  const std::vector<Vec3>& positions = distance_.positions();
+  return (positions[b] - positions[a]).cross(positions[c] - positions[a]);
 }
 
 SurfaceSample MeasuredSurface::sample(std::int64_t i, std::int64_t n) const {
@@ -76,7 +81,7 @@ SurfaceSample MeasuredSurface::sample(std::int64_t i, std::int64_t n) const {
   const auto& positions = distance_.positions();
   return {(1 - root) * positions[corners[0]] + root * (1 - v) * positions[corners[1]] +
               root * v * positions[corners[2]],
-          normals_[triangle]};
+          normal(static_cast<Index>(triangle))};
 }
 
 }  // namespace strake::evaluation

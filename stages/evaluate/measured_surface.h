@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -21,6 +22,7 @@ struct SurfaceSample {
 /// and their neighbours cover the same place.
 class MeasuredSurface {
  public:
+  /// \param positions, triangles  kept by reference
   /// \throw PreconditionError naming `what` where no triangle has an area
   MeasuredSurface(const std::vector<Vec3>& positions,
                   const std::vector<std::array<Index, 3>>& triangles, const char* what);
@@ -31,14 +33,18 @@ class MeasuredSurface {
 
   [[nodiscard]] const SurfaceDistance& distance() const { return distance_; }
   /// Unit normal of a triangle, by its index in `distance()`.
-  [[nodiscard]] const Vec3& normal(Index triangle) const { return normals_[triangle]; }
+  [[nodiscard]] Vec3 normal(Index triangle) const { return cross(triangle).normalized(); }
   /// Index among the triangles given, of one in `distance()`.
-  [[nodiscard]] Index source(Index triangle) const { return sources_[triangle]; }
+  [[nodiscard]] Index source(Index triangle) const {
+    return sources_.empty() ? triangle : sources_[triangle];
+  }
   [[nodiscard]] double area() const { return area_up_to_.back(); }
 
  private:
-  std::vector<Index> sources_;
-  std::vector<Vec3> normals_;
+  [[nodiscard]] Vec3 cross(Index triangle) const;
+
+  std::vector<Index> sources_;  // empty where none was left out, as `kept_`
+  std::vector<std::array<Index, 3>> kept_;
   std::vector<double> area_up_to_;  // running sums
   SurfaceDistance distance_;
 };

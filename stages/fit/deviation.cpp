@@ -37,24 +37,24 @@ constexpr double kFar = 2;
 constexpr std::size_t kSurfaceSamples = 4;
 
 /// Fills in distance and direction. \param way  from the result to the surface
-void set_way(DistanceSample& sample, const Vec3& way, const Vec3& normal, double shortest) {
+void set_way(Gap& gap, const Vec3& way, const Vec3& normal, double shortest) {
   const double length = way.norm();
-  sample.direction =
+  gap.direction =
       length > shortest ? Vec3(std::copysign(1 / length, way.dot(normal)) * way) : normal;
-  sample.distance = way.dot(sample.direction);
+  gap.distance = way.dot(gap.direction);
 }
 
 /// The least-squares problem of samples on one triangle.
 class TriangleTerms {
  public:
-  /// \param slope  factor on the weight
-  void add(const DistanceSample& sample, double slope) {
-    const Vec3 weighted = slope * sample.weight * sample.direction;
-    const Mat3 along = weighted * sample.direction.transpose();
+  /// \param at  of the sample, barycentric
+  void add(const Gap& gap, const std::array<double, 3>& at, double weight) {
+    const Vec3 weighted = weight * gap.direction;
+    const Mat3 along = weighted * gap.direction.transpose();
     int pair = 0;
     for (int i = 0; i < 3; ++i) {
-      right_[i] += sample.at[i] * sample.distance * weighted;
-      for (int j = i; j < 3; ++j) blocks_[pair++] += sample.at[i] * sample.at[j] * along;
+      right_[i] += at[i] * gap.distance * weighted;
+      for (int j = i; j < 3; ++j) blocks_[pair++] += at[i] * at[j] * along;
     }
   }
 
@@ -78,18 +78,25 @@ class TriangleTerms {
 }  // namespace
 
 Deviation::Deviation(const TriMesh& mesh, const SurfaceDistance& surface,
-                     const std::vector<Vec3>& face_normals, const std::vector<Vec3>& wedge_normals)
+                     const FaceNormals& face_normals, const std::vector<Vec3>& wedge_normals,
+                     std::size_t triangles)
     : mesh_(mesh),
       surface_(surface),
       face_normals_(face_normals),
-      vertex_normals_(mesh.positions.size(), Vec3::Zero()),
-      vertex_areas_(mesh.positions.size(), 0.0) {
-  const std::vector<double> areas = wedge_areas(mesh);
+      step_(mesh.positions.size() / (kSurfaceSamples * triangles) + 1),
+      normals_(mesh.positions.size() / step_, Vec3::Zero()),
+      areas_(normals_.size(), 0.0),
+      from_surface_(normals_.size()) {
+  const std::vector<double> wedge_area = wedge_areas(mesh);
   for (Index w = 0; w < mesh.wedge_count(); ++w) {
-    vertex_areas_[mesh.wedge_vertex[w]] += areas[w];
-    vertex_normals_[mesh.wedge_vertex[w]] += wedge_normals[w];
+    const auto vertex = static_cast<std::size_t>(mesh.wedge_vertex[w]);
+    const std::size_t sample = vertex / step_;
+    if (vertex % step_ != 0 || sample >= normals_.size()) continue;
+    areas_[sample] += wedge_area[w];
+    normals_[sample] += wedge_normals[w];
   }
-  for (Vec3& normal : vertex_normals_) normal.normalize();
+  for (Vec3& normal : normals_) normal.normalize();
+  for (double& area : areas_) area *= static_cast<double>(step_);
 }
 
 void Deviation::measure(const std::vector<Vec3>& positions,
@@ -103,100 +110,111 @@ void Deviation::measure(const std::vector<Vec3>& positions,
 }
 
 void Deviation::measure_result(const std::vector<Vec3>& positions,
-                               const std::vector<std::array<Index, 3>>& triangles) {
-  from_result_.resize(triangles.size() * kRule.size());
+                               const std::vector<Triangle>& triangles) {
+  const bool is_first = from_result_.empty();
+  if (is_first) {
+    positions_.assign(positions.size(), Vec3::Zero());
+    triangles_.assign(triangles.size(), {kNone, kNone, kNone});
+    double_areas_.resize(triangles.size());
+    from_result_.resize(triangles.size() * kRule.size());
+  }
   tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t t) {
-    const auto& corners = triangles[t];
+    const Triangle& corners = triangles[t];
+    const bool is_same = triangles_[t] == corners && std::ranges::all_of(corners, [&](Index v) {
+                           return positions_[v] == positions[v];
+                         });
+    if (is_same) return;
     const Vec3& a = positions[corners[0]];
     const Vec3& b = positions[corners[1]];
     const Vec3& c = positions[corners[2]];
     const Vec3 cross = (b - a).cross(c - a);
     const double area2 = cross.norm();
+    double_areas_[t] = area2;
     for (std::size_t s = 0; s < kRule.size(); ++s) {
-      DistanceSample& own = from_result_[t * kRule.size() + s];
+      Gap& own = from_result_[t * kRule.size() + s];
       const auto& at = kRule[s].at;
       const Vec3 place = at[0] * a + at[1] * b + at[2] * c;
-      if (own.corners == corners && own.place == place) continue;
       // The first time the sample before is the best guess.
-      const Index guess = own.nearest == kNone && s > 0
-                              ? from_result_[t * kRule.size() + s - 1].nearest
-                              : own.nearest;
+      const Index guess =
+          is_first && s > 0 ? from_result_[t * kRule.size() + s - 1].nearest : own.nearest;
       const ClosestPoint nearest = surface_.closest_near(place, guess);
-      own = {place, nearest.distance, Vec3::Zero(), kRule[s].weight * area2 / 2, corners,
-             at,    nearest.triangle};
-      const Vec3& normal = face_normals_[nearest.triangle];
+      own = {nearest.distance, Vec3::Zero(), nearest.triangle};
+      const Vec3 normal = face_normals_[nearest.triangle];
       if (!(normal.dot(cross) > kLeastAgreement * area2)) continue;
       set_way(own, surface_.point(nearest) - place, normal, kNoWay * mesh_.diagonal);
     }
   });
+  positions_ = positions;
+  triangles_ = triangles;
 }
 
 void Deviation::measure_surface(const std::vector<Vec3>& positions,
-                                const std::vector<std::array<Index, 3>>& triangles) {
+                                const std::vector<Triangle>& triangles) {
   const SurfaceDistance result(positions, triangles);
-  const std::size_t step = mesh_.positions.size() / (kSurfaceSamples * triangles.size()) + 1;
-  from_surface_.resize(mesh_.positions.size() / step);
   tbb::parallel_for(std::size_t{0}, from_surface_.size(), [&](std::size_t s) {
-    const std::size_t v = s * step;
-    const Vec3& place = mesh_.positions[v];
-    DistanceSample& own = from_surface_[s];
-    const ClosestPoint nearest = result.closest_near(place, own.nearest);
-    const auto& corners = triangles[nearest.triangle];
+    const Vec3& place = mesh_.positions[s * step_];
+    auto& [gap, corners, at] = from_surface_[s];
+    const ClosestPoint nearest = result.closest_near(place, gap.nearest);
+    gap = {nearest.distance, Vec3::Zero(), nearest.triangle};
+    corners = triangles[nearest.triangle];
+    at = nearest.barycentric;
     const Vec3& a = positions[corners[0]];
     const Vec3 cross = (positions[corners[1]] - a).cross(positions[corners[2]] - a);
-    own = {
-        place,   nearest.distance,    Vec3::Zero(),    vertex_areas_[v] * static_cast<double>(step),
-        corners, nearest.barycentric, nearest.triangle};
-    const Vec3& normal = vertex_normals_[v];
-    if (!(normal.dot(cross) > kLeastAgreement * cross.norm())) return;
-    set_way(own, place - result.point(nearest), normal, kNoWay * mesh_.diagonal);
+    if (!(normals_[s].dot(cross) > kLeastAgreement * cross.norm())) return;
+    set_way(gap, place - result.point(nearest), normals_[s], kNoWay * mesh_.diagonal);
   });
 }
 
-double Deviation::sum() const {
+double Deviation::weight(std::size_t sample) const {
+  return kRule[sample % kRule.size()].weight * double_areas_[sample / kRule.size()] / 2;
+}
+
+template <class Term>
+double Deviation::sum_over(Term term) const {
   double sum = 0;
-  for (const auto* samples : {&from_result_, &from_surface_}) {
-    for (const DistanceSample& s : *samples) sum += s.weight * s.distance * s.distance;
+  for (std::size_t s = 0; s < from_result_.size(); ++s) sum += term(weight(s), from_result_[s]);
+  for (std::size_t s = 0; s < from_surface_.size(); ++s) {
+    sum += term(areas_[s], from_surface_[s].gap);
   }
   return sum;
+}
+
+double Deviation::sum() const {
+  return sum_over(
+      [](double weight, const Gap& gap) { return weight * gap.distance * gap.distance; });
 }
 
 double Deviation::cost() const {
-  double sum = 0;
-  for (const auto* samples : {&from_result_, &from_surface_}) {
-    for (const DistanceSample& s : *samples) {
-      sum += s.weight * s.distance * s.distance * (1 + std::abs(s.distance) * per_far_);
-    }
-  }
-  return sum;
+  return sum_over([&](double weight, const Gap& gap) {
+    return weight * gap.distance * gap.distance * (1 + std::abs(gap.distance) * per_far_);
+  });
 }
 
 /// Slope of the cost over the squared distance, for an area of 1.
-double Deviation::slope_of(const DistanceSample& sample) const {
-  return 1 + 1.5 * std::abs(sample.distance) * per_far_;
+double Deviation::slope_of(const Gap& gap) const {
+  return 1 + 1.5 * std::abs(gap.distance) * per_far_;
 }
 
 double Deviation::mean() const {
-  double area = 0;
-  for (const auto* samples : {&from_result_, &from_surface_}) {
-    for (const DistanceSample& s : *samples) area += s.weight;
-  }
+  const double area = sum_over([](double weight, const Gap&) { return weight; });
   return area > 0 ? sum() / area : 0.0;
 }
 
 void Deviation::add_to(BlockSystem& system) const {
   // The six samples of a triangle concern the same vertices: their sum is looked up once.
-  for (std::size_t first = 0; first < from_result_.size(); first += kRule.size()) {
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
     TriangleTerms terms;
-    for (std::size_t s = first; s < first + kRule.size(); ++s) {
-      terms.add(from_result_[s], slope_of(from_result_[s]));
+    for (std::size_t i = 0; i < kRule.size(); ++i) {
+      const std::size_t s = t * kRule.size() + i;
+      terms.add(from_result_[s], kRule[i].at, slope_of(from_result_[s]) * weight(s));
     }
-    terms.add_to(system, from_result_[first].corners);
+    terms.add_to(system, triangles_[t]);
   }
-  for (const DistanceSample& s : from_surface_) {
+  for (std::size_t s = 0; s < from_surface_.size(); ++s) {
+    const auto& [gap, corners, at] = from_surface_[s];
     TriangleTerms terms;
-    terms.add(s, slope_of(s));
-    terms.add_to(system, s.corners);
+    terms.add(gap, at, slope_of(gap) * areas_[s]);
+    terms.add_to(system, corners);
   }
 }
 

@@ -4,21 +4,18 @@
 #include <vector>
 
 #include "common/core/tri_mesh.h"
+#include "common/geometry/mesh_measures.h"
 #include "common/geometry/surface_distance/surface_distance.h"
 #include "stages/fit/block_system.h"
 
 namespace strake::fitting {
 
-/// A place where the distance of result and surface was measured.
-struct DistanceSample {
-  Vec3 place = Vec3::Zero();      ///< it was measured from
+/// The distance of result and surface at a sample, as it was last measured.
+struct Gap {
   double distance = 0;            ///< along `direction`; may be negative
   Vec3 direction = Vec3::Zero();  ///< unit, in which a move of the result by
                                   ///< `distance` closes the gap; zero: no such
-  double weight = 0;              ///< area that it stands for
-  std::array<Index, 3> corners = {kNone, kNone, kNone};  ///< of the result's triangle there
-  std::array<double, 3> at = {0, 0, 0};                  ///< barycentric, in that triangle
-  Index nearest = kNone;  ///< triangle that was nearest, of the surface or of the result
+  Index nearest = kNone;          ///< triangle that was nearest, of the surface or of the result
 };
 
 /// The distance between a result and the surface, both ways, as a sum of squares.
@@ -31,12 +28,13 @@ struct DistanceSample {
 class Deviation {
  public:
   /// \param mesh, surface  the input and its faces, in the same order
-  /// \param face_normals   [F] of the input; kept by reference
+  /// \param face_normals   of the input; kept by reference
   /// \param wedge_normals  [W] of the input
-  Deviation(const TriMesh& mesh, const SurfaceDistance& surface,
-            const std::vector<Vec3>& face_normals, const std::vector<Vec3>& wedge_normals);
+  /// \param triangles      of results that will be measured
+  Deviation(const TriMesh& mesh, const SurfaceDistance& surface, const FaceNormals& face_normals,
+            const std::vector<Vec3>& wedge_normals, std::size_t triangles);
 
-  /// Measures from all samples again. \param triangles  as many as the last time
+  /// Measures from all samples again, but for those in triangles that are as they were.
   void measure(const std::vector<Vec3>& positions,
                const std::vector<std::array<Index, 3>>& triangles);
 
@@ -54,19 +52,35 @@ class Deviation {
   void add_to(BlockSystem& system) const;
 
  private:
-  void measure_result(const std::vector<Vec3>& positions,
-                      const std::vector<std::array<Index, 3>>& triangles);
-  [[nodiscard]] double slope_of(const DistanceSample& sample) const;
-  void measure_surface(const std::vector<Vec3>& positions,
-                       const std::vector<std::array<Index, 3>>& triangles);
+  using Triangle = std::array<Index, 3>;
+
+  /// A gap measured from the surface, and where its other end was in the result.
+  struct SurfaceGap {
+    Gap gap;
+    Triangle corners = {kNone, kNone, kNone};
+    std::array<double, 3> at = {0, 0, 0};  ///< barycentric
+  };
+
+  void measure_result(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles);
+  void measure_surface(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles);
+  [[nodiscard]] double slope_of(const Gap& gap) const;
+  /// Area that a sample of the result stands for.
+  [[nodiscard]] double weight(std::size_t sample) const;
+  /// The sum of term(weight, gap) over all samples.
+  template <class Term>
+  [[nodiscard]] double sum_over(Term term) const;
 
   const TriMesh& mesh_;
   const SurfaceDistance& surface_;
-  const std::vector<Vec3>& face_normals_;    ///< of the input
-  std::vector<Vec3> vertex_normals_;         ///< of the input
-  std::vector<double> vertex_areas_;         ///< of the input
-  std::vector<DistanceSample> from_result_;  ///< six for each triangle
-  std::vector<DistanceSample> from_surface_;
+  const FaceNormals& face_normals_;   ///< of the input
+  std::vector<Vec3> positions_;       ///< of the result, as last measured
+  std::vector<Triangle> triangles_;   ///< likewise
+  std::vector<double> double_areas_;  ///< [T] of those
+  std::vector<Gap> from_result_;      ///< [6 T] at the places of the quadrature
+  std::size_t step_;                  ///< sample s of the surface is vertex s * step_ of the input
+  std::vector<Vec3> normals_;         ///< [samples of the surface] of the input there
+  std::vector<double> areas_;         ///< [samples of the surface] that they stand for
+  std::vector<SurfaceGap> from_surface_;
   double per_far_ = -1;  ///< 1 / far, in units of length; 0 where all distances are
 };
 

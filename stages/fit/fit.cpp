@@ -23,7 +23,6 @@ namespace {
 
 using fitting::BlockSystem;
 using fitting::Deviation;
-using fitting::DirectionTerm;
 using fitting::FaceGuard;
 using fitting::FlowLines;
 using fitting::VertexPlaces;
@@ -48,6 +47,11 @@ constexpr double kShortestMove = 1e-8;
 constexpr std::array<double, 3> kSteps = {1, 0.5, 0.25};  ///< shares of the moves that are tried
 constexpr int kMostRetreats = 10;  ///< times that vertices are put back for one step
 
+/// Triangles that faces are cut into by diagonals.
+std::size_t triangle_count(const PolyMesh& mesh) {
+  return mesh.corners.size() - 2 * static_cast<std::size_t>(mesh.face_count());
+}
+
 class Fit {
  public:
   Fit(const TriMesh& mesh, const PrincipalField* field, const QuadMesh& quads)
@@ -56,7 +60,8 @@ class Fit {
         unseen_(kUnseen * mesh.diagonal),
         surface_(mesh.positions, mesh.faces),
         places_(mesh, surface_, quads),
-        deviation_(mesh, surface_, places_.face_normals(), places_.wedge_normals()),
+        deviation_(mesh, surface_, places_.face_normals(), places_.wedge_normals(),
+                   triangle_count(quads.mesh)),
         lines_(quads.mesh),
         guard_(quads.mesh, places_),
         system_(lines_.neighbours()) {
@@ -108,7 +113,7 @@ class Fit {
  private:
   /// What is minimised. \param square  squared distance that a turn by a radian is worth
   [[nodiscard]] double cost(double square) const {
-    return deviation_.cost() + sum_of(lines_.terms(places_, field_, square));
+    return deviation_.cost() + lines_.cost(places_, field_, square);
   }
 
   void measure() {
@@ -143,7 +148,7 @@ class Fit {
   [[nodiscard]] std::vector<Vec3> solve(double square) {
     system_.set_zero();
     deviation_.add_to(system_);
-    add_to(system_, lines_.terms(places_, field_, square));
+    lines_.add_to(system_, places_, field_, square);
     const std::vector<Vec3>& p = places_.positions();
     std::vector<double> area(p.size(), 0.0);
     for (const auto& [a, b, c] : triangles_) {

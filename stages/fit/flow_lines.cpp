@@ -29,6 +29,15 @@ constexpr double kNoticed = 3;
 /// Edges steeper than this against the surface have no direction on it.
 constexpr double kLeastTangential = 0.3;
 
+/// The wish that a sum of positions, each times its factor, had no part along `side`.
+struct DirectionTerm {
+  std::array<Index, 3> vertices = {0, 0, 0};
+  std::array<double, 3> factors = {0, 0, 0};
+  Vec3 side = Vec3::Zero();  ///< unit
+  double weight = 0;
+  double residual = 0;  ///< the part there is
+};
+
 /// The wish of an edge to have no part along one of two directions, if that part is the smaller
 /// one: none where both are as large, so that diagonals of a cross stay what they are.
 DirectionTerm turned(const std::array<Index, 2>& edge, const Vec3& side, double part, double other,
@@ -156,9 +165,9 @@ double FlowLines::importance(const VertexPlaces& places, const PrincipalField& f
   return sag + unnoticed > 0 ? sag / (sag + unnoticed) : 1.0;
 }
 
-std::vector<DirectionTerm> FlowLines::terms(const VertexPlaces& places, const PrincipalField* field,
-                                            double square) const {
-  std::vector<DirectionTerm> terms;
+template <class Use>
+void FlowLines::for_terms(const VertexPlaces& places, const PrincipalField* field, double square,
+                          const Use& use) const {
   const std::vector<Vec3>& p = places.positions();
   std::vector<double> freedom(p.size(), 0.0);  // of edges of a T-joint to leave the field
   std::vector<std::array<Index, 2>> beside(p.size(), {kNone, kNone});
@@ -176,13 +185,13 @@ std::vector<DirectionTerm> FlowLines::terms(const VertexPlaces& places, const Pr
       term.residual -= freedom[vertex] * kBend * way.norm();
       term.weight += freedom[vertex] * kBent * square;
     }
-    terms.push_back(term);
+    use(term);
     term.side = term.side.cross(places.normal(vertex));
     term.residual = term.side.dot(off);
     term.weight = kEven * square;
-    terms.push_back(term);
+    use(term);
   }
-  if (field == nullptr) return terms;
+  if (field == nullptr) return;
   std::vector<Vec3> arms;
   for (Index v = 0; v < mesh_.vertex_count(); ++v) arms.push_back(places.cross_arm(*field, v));
   for (const auto& edge : edges_) {
@@ -192,34 +201,25 @@ std::vector<DirectionTerm> FlowLines::terms(const VertexPlaces& places, const Pr
     }
     for (const Index v : edge) {
       if (places.is_free(v)) {
-        terms.push_back(along_cross(places, arms[v], edge, v, bound * square / 2));
+        use(along_cross(places, arms[v], edge, v, bound * square / 2));
       } else if (places.is_on_line(v)) {
-        terms.push_back(across_line(places, places.line_tangent(v), edge, square / 2));
+        use(across_line(places, places.line_tangent(v), edge, square / 2));
       }
     }
   }
-  return terms;
 }
 
-void FlowLines::straighten_joints(VertexPlaces& places) const {
-  for (const auto& [face, along] : joints_) {
-    const std::vector<Vec3>& p = places.positions();
-    const Vec3 inward =
-        newell_normal(p, mesh_.face(face)).normalized().cross(p[along.after] - p[along.before]);
-    const double length2 = inward.squaredNorm();
-    const double dent = inward.dot(p[along.vertex] - p[along.before]);
-    if (dent > 0 && length2 > 0) places.move(along.vertex, -(dent / length2) * inward);
-  }
-}
-
-double sum_of(const std::vector<DirectionTerm>& terms) {
+double FlowLines::cost(const VertexPlaces& places, const PrincipalField* field,
+                       double square) const {
   double sum = 0;
-  for (const DirectionTerm& term : terms) sum += term.weight * term.residual * term.residual;
+  for_terms(places, field, square,
+            [&](const DirectionTerm& term) { sum += term.weight * term.residual * term.residual; });
   return sum;
 }
 
-void add_to(BlockSystem& system, const std::vector<DirectionTerm>& terms) {
-  for (const DirectionTerm& term : terms) {
+void FlowLines::add_to(BlockSystem& system, const VertexPlaces& places, const PrincipalField* field,
+                       double square) const {
+  for_terms(places, field, square, [&](const DirectionTerm& term) {
     const Mat3 across = term.weight * term.side * term.side.transpose();
     for (int i = 0; i < 3; ++i) {
       if (term.factors[i] == 0) continue;
@@ -230,6 +230,17 @@ void add_to(BlockSystem& system, const std::vector<DirectionTerm>& terms) {
         system.add(term.vertices[i], term.vertices[j], term.factors[i] * term.factors[j] * across);
       }
     }
+  });
+}
+
+void FlowLines::straighten_joints(VertexPlaces& places) const {
+  for (const auto& [face, along] : joints_) {
+    const std::vector<Vec3>& p = places.positions();
+    const Vec3 inward =
+        newell_normal(p, mesh_.face(face)).normalized().cross(p[along.after] - p[along.before]);
+    const double length2 = inward.squaredNorm();
+    const double dent = inward.dot(p[along.vertex] - p[along.before]);
+    if (dent > 0 && length2 > 0) places.move(along.vertex, -(dent / length2) * inward);
   }
 }
 

@@ -11,15 +11,6 @@
 
 namespace strake::fitting {
 
-/// The wish that a sum of positions, each times its factor, had no part along `side`.
-struct DirectionTerm {
-  std::array<Index, 3> vertices = {0, 0, 0};
-  std::array<double, 3> factors = {0, 0, 0};
-  Vec3 side = Vec3::Zero();  ///< unit
-  double weight = 0;
-  double residual = 0;  ///< the part there is
-};
-
 /// The lines that the edges of a result form, and where they want to go: straight on through every
 /// vertex where they can be followed, in even steps, along the arms of the cross field, and at a
 /// right angle off feature and boundary lines. A T-joint that is a corner of a quad bends out of it
@@ -31,11 +22,14 @@ class FlowLines {
   /// [V] which vertices a face or a line couples, ascending.
   [[nodiscard]] std::vector<std::vector<Index>> neighbours() const;
 
-  /// All wishes at the present places.
+  /// The sum of weight times squared residual over all wishes at the present places.
   /// \param field        nullptr: lines only want to be straight and even
   /// \param square       squared distance that an edge turned by one radian is worth
-  [[nodiscard]] std::vector<DirectionTerm> terms(const VertexPlaces& places,
-                                                 const PrincipalField* field, double square) const;
+  [[nodiscard]] double cost(const VertexPlaces& places, const PrincipalField* field,
+                            double square) const;
+  /// Adds the least-squares problem of fulfilling these wishes by moves of the vertices.
+  void add_to(BlockSystem& system, const VertexPlaces& places, const PrincipalField* field,
+              double square) const;
 
   /// Moves T-joints that make their face concave onto the line between their neighbours, within the
   /// face's plane.
@@ -59,6 +53,10 @@ class FlowLines {
   [[nodiscard]] double importance(const VertexPlaces& places, const PrincipalField& field,
                                   const Through& line, double square) const;
   void follow_lines(Index vertex, const std::vector<Index>& around);
+  /// Calls use(term) for every wish.
+  template <class Use>
+  void for_terms(const VertexPlaces& places, const PrincipalField* field, double square,
+                 const Use& use) const;
 
   const PolyMesh& mesh_;
   std::vector<Index> face_of_;  ///< [C]
@@ -66,10 +64,5 @@ class FlowLines {
   std::vector<Through> through_;
   std::vector<Joint> joints_;
 };
-
-/// Sum of weight times squared residual.
-double sum_of(const std::vector<DirectionTerm>& terms);
-/// Adds the least-squares problem of fulfilling the wishes by moves of the vertices.
-void add_to(BlockSystem& system, const std::vector<DirectionTerm>& terms);
 
 }  // namespace strake::fitting

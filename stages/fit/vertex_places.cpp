@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "common/geometry/frames.h"
-#include "common/geometry/mesh_measures.h"
 
 namespace strake::fitting {
 namespace {
@@ -22,7 +21,7 @@ VertexPlaces::VertexPlaces(const TriMesh& mesh, const SurfaceDistance& surface,
                            const QuadMesh& quads)
     : mesh_(mesh),
       surface_(surface),
-      face_normals_(strake::face_normals(mesh)),
+      face_normals_(mesh),
       wedge_normals_(strake::wedge_normals(mesh, face_normals_)),
       positions_(quads.mesh.positions),
       normals_(positions_.size()),

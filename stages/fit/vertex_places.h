@@ -7,6 +7,7 @@
 #include "common/core/fields.h"
 #include "common/core/poly_mesh.h"
 #include "common/core/tri_mesh.h"
+#include "common/geometry/mesh_measures.h"
 #include "common/geometry/surface_distance/surface_distance.h"
 
 namespace strake::fitting {
@@ -27,8 +28,8 @@ class VertexPlaces {
   [[nodiscard]] const Vec3& normal(Index v) const { return normals_[v]; }
   /// Distance from the surface's tangent plane there; negative inside.
   [[nodiscard]] double height(Index v) const;
-  /// Of the input: [F], [W] unit.
-  [[nodiscard]] const std::vector<Vec3>& face_normals() const { return face_normals_; }
+  /// Of the input, the second [W] unit.
+  [[nodiscard]] const FaceNormals& face_normals() const { return face_normals_; }
   [[nodiscard]] const std::vector<Vec3>& wedge_normals() const { return wedge_normals_; }
   [[nodiscard]] bool is_free(Index v) const { return lines_[v].kind == Kind::free; }
   [[nodiscard]] bool is_on_line(Index v) const { return lines_[v].kind == Kind::line; }
@@ -74,7 +75,7 @@ class VertexPlaces {
 
   const TriMesh& mesh_;
   const SurfaceDistance& surface_;
-  std::vector<Vec3> face_normals_;           ///< of the input
+  FaceNormals face_normals_;                 ///< of the input
   std::vector<Vec3> wedge_normals_;          ///< of the input
   std::vector<Vec3> positions_;              ///< [V] of the result
   std::vector<Vec3> normals_;                ///< [V] at the feet

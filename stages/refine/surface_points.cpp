@@ -25,7 +25,7 @@ Vec3 SurfacePoints::place(const LinePlace& at) const {
 }
 
 SurfacePoints::SurfacePoints(const TriMesh& mesh)
-    : mesh_(mesh), surface_(mesh.positions, mesh.faces), normals_(face_normals(mesh)) {}
+    : mesh_(mesh), surface_(mesh.positions, mesh.faces), normals_(mesh) {}
 
 SurfacePoint SurfacePoints::nearest(const Vec3& p, const Vec3& normal) const {
   const auto faces_alike = [&](Index face) { return normals_[face].dot(normal) > 0; };

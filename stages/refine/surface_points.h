@@ -4,6 +4,7 @@
 
 #include "common/core/poly_mesh.h"
 #include "common/core/tri_mesh.h"
+#include "common/geometry/mesh_measures.h"
 #include "common/geometry/surface_distance/surface_distance.h"
 #include "stages/refine/section_path.h"
 
@@ -47,7 +48,7 @@ class SurfacePoints {
 
   const TriMesh& mesh_;
   SurfaceDistance surface_;
-  std::vector<Vec3> normals_;  ///< [F]
+  FaceNormals normals_;
 };
 
 }  // namespace strake

@@ -48,7 +48,8 @@ BallRule ball_rule(const TensorOptions& options, double diagonal, Index faces) {
 
 WedgeTensors estimate_wedge_tensors(const TriMesh& mesh, Index count, const BallRule& rule,
                                     Observer& observer) {
-  const std::vector<Vec3> normals = face_normals(mesh);
+  const FaceNormals face_normals(mesh);
+  const std::vector<Vec3> normals = face_normals.all();
   const FaceCycles cycles(mesh, normals);
   const std::vector<double> edge_length = wedge_edge_lengths(mesh);
 
@@ -56,7 +57,7 @@ WedgeTensors estimate_wedge_tensors(const TriMesh& mesh, Index count, const Ball
   for (Index h = mesh.halfedge_count() - 1; h >= 0; --h) wedge_corner[mesh.wedge_of(h)] = h;
 
   WedgeTensors result;
-  result.normal = wedge_normals(mesh, normals);
+  result.normal = wedge_normals(mesh, face_normals);
   result.normal.resize(count);
   result.tensor.resize(count);
 

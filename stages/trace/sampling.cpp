@@ -31,7 +31,7 @@ std::complex<double> chart_turn(const FaceChart& chart) {
 void set_directions(const TraceDomain& domain, const std::complex<double>& turn,
                     FieldContext& context) {
   const Index face = context.chart.face;
-  const Vec3& normal = domain.face_normals[face];
+  const Vec3 normal = domain.face_normals[face];
   const ChartAxes axes = domain.axes(face);
   const PrincipalField& field = domain.field;
   for (int i = 0; i < 3; ++i) {

@@ -7,6 +7,7 @@
 #include "common/core/fields.h"
 #include "common/core/line_set.h"
 #include "common/geometry/face_chart.h"
+#include "common/geometry/mesh_measures.h"
 #include "stages/trace/spacing.h"
 
 namespace strake {
@@ -16,7 +17,7 @@ struct TraceDomain {
   const TriMesh& mesh;
   const PrincipalField& field;
   const Spacing& spacing;
-  std::vector<Vec3> face_normals;  ///< [F]
+  FaceNormals face_normals;
 
   /// Chart direction -> world, for a chart in the position of `lay_out`.
   [[nodiscard]] ChartAxes axes(Index face) const {

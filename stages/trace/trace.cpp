@@ -133,7 +133,7 @@ TraceResult trace_lines(const TriMesh& mesh, const PrincipalField& field,
                         const TraceOptions& options, Observer& observer, const WantedSizes& sizes) {
   observer.report("choosing line distances", 0);
   auto [spacing, tolerance] = choose_spacing(mesh, field, sizes, options);
-  const TraceDomain domain{mesh, field, spacing, face_normals(mesh)};
+  const TraceDomain domain{mesh, field, spacing, FaceNormals(mesh)};
   TracerSettings settings;
   settings.stop_fraction = options.stop_fraction;
   const std::vector<BarrierLine> barriers = barrier_lines(domain);

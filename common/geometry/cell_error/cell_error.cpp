@@ -169,24 +169,32 @@ std::vector<Sums> measure_input(const ComparedSurfaces& surfaces, std::vector<In
       guess = at_vertex[v].triangle;
     }
   });
-  std::vector<std::vector<Hit>> inside(mesh.faces.size());
-  tbb::parallel_for(std::size_t{0}, inside.size(), [&](std::size_t f) {
+  std::vector<std::size_t> first(mesh.faces.size() + 1, 0);  // into `inside`, of each face
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const int rows = rows_of(f);
-    if (rows == 1) return;
+    first[f + 1] = first[f] + static_cast<std::size_t>(rows == 1 ? 0 : place_count(rows));
+  }
+  std::vector<Hit> inside(first.back());
+  tbb::parallel_for(std::size_t{0}, mesh.faces.size(), [&](std::size_t f) {
+    if (first[f] == first[f + 1]) return;
     Index guess = at_vertex[mesh.faces[f][0]].triangle;
-    for_each_place(rows, [&](const Barycentric& at) {
-      inside[f].push_back(look(place(mesh.positions, mesh.faces[f], at), guess));
-      guess = inside[f].back().triangle;
+    std::size_t hit = first[f];
+    for_each_place(rows_of(f), [&](const Barycentric& at) {
+      inside[hit] = look(place(mesh.positions, mesh.faces[f], at), guess);
+      guess = inside[hit++].triangle;
     });
   });
 
   const std::vector<Index>& cell_of = surfaces.triangles().face;
   std::vector<Sums> sums(cells);
   std::vector<double> weights(mesh.positions.size(), 0);  // of small faces
-  for (std::size_t f = 0; f < inside.size(); ++f) {
-    const double share = areas[f] / static_cast<double>(inside[f].empty() ? 3 : inside[f].size());
-    for (const Hit& hit : inside[f]) sums[cell_of[hit.triangle]].add(hit.distance, share);
-    if (!inside[f].empty()) continue;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const std::size_t count = first[f + 1] - first[f];
+    const double share = areas[f] / static_cast<double>(count == 0 ? 3 : count);
+    for (std::size_t i = first[f]; i < first[f + 1]; ++i) {
+      sums[cell_of[inside[i].triangle]].add(inside[i].distance, share);
+    }
+    if (count > 0) continue;
     for (const Index v : mesh.faces[f]) weights[v] += share;
   }
   vertex_cell.clear();

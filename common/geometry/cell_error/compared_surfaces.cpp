@@ -1,7 +1,5 @@
 #include "common/geometry/cell_error/compared_surfaces.h"
 
-#include "common/geometry/mesh_measures.h"
-
 namespace strake {
 namespace {
 
@@ -17,9 +15,10 @@ ComparedSurfaces::ComparedSurfaces(const TriMesh& mesh, const QuadMesh& quads)
       quads_(quads),
       triangles_(triangulate_faces(quads.mesh)),
       first_(static_cast<std::size_t>(quads.mesh.face_count()) + 1, 0),
+      positions_(moved(quads.mesh.positions, mesh.origin)),
       input_(mesh.positions, mesh.faces),
-      result_(moved(quads.mesh.positions, mesh.origin), triangles_.corners),
-      input_normals_(face_normals(mesh)) {
+      result_(positions_, triangles_.corners),
+      input_normals_(mesh) {
   for (const Index f : triangles_.face) ++first_[f + 1];
   for (std::size_t f = 1; f < first_.size(); ++f) first_[f] += first_[f - 1];
 }

@@ -5,6 +5,7 @@
 
 #include "common/core/poly_mesh.h"
 #include "common/core/tri_mesh.h"
+#include "common/geometry/mesh_measures.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/surface_distance/surface_distance.h"
 
@@ -19,7 +20,7 @@ class ComparedSurfaces {
   [[nodiscard]] const TriMesh& mesh() const { return mesh_; }
   [[nodiscard]] const PolyMesh& faces() const { return quads_.mesh; }
   /// [V of the result] relative to the mesh's origin.
-  [[nodiscard]] const std::vector<Vec3>& positions() const { return result_.positions(); }
+  [[nodiscard]] const std::vector<Vec3>& positions() const { return positions_; }
   /// The result's triangles, each with its face.
   [[nodiscard]] const FaceTriangles& triangles() const { return triangles_; }
   /// First triangle of a face of the result; of the face after the last one, their number.
@@ -27,16 +28,17 @@ class ComparedSurfaces {
 
   [[nodiscard]] const SurfaceDistance& input() const { return input_; }
   [[nodiscard]] const SurfaceDistance& result() const { return result_; }
-  [[nodiscard]] const std::vector<Vec3>& input_normals() const { return input_normals_; }
+  [[nodiscard]] const FaceNormals& input_normals() const { return input_normals_; }
 
  private:
   const TriMesh& mesh_;
   const QuadMesh& quads_;
   FaceTriangles triangles_;
   std::vector<Index> first_;
+  std::vector<Vec3> positions_;
   SurfaceDistance input_;
   SurfaceDistance result_;
-  std::vector<Vec3> input_normals_;
+  FaceNormals input_normals_;
 };
 
 }  // namespace strake

@@ -168,11 +168,8 @@ ClosestPoint closest_point_on_triangle(const Vec3& p, const Vec3& a, const Vec3&
   return {kNone, (ap - v * ab - w * ac).norm(), {1 - v - w, v, w}};
 }
 
-SurfaceDistance::SurfaceDistance(std::vector<Vec3> positions,
-                                 std::vector<std::array<Index, 3>> triangles)
-    : positions_(std::move(positions)),
-      triangles_(std::move(triangles)),
-      hierarchy_(std::make_unique<Hierarchy>()) {
+SurfaceDistance::SurfaceDistance(const std::vector<Vec3>& positions, const Triangles& triangles)
+    : positions_(positions), triangles_(triangles), hierarchy_(std::make_unique<Hierarchy>()) {
   if (triangles_.empty()) throw PreconditionError("the surface to measure against has no triangle");
   Eigen::AlignedBox3d box;
   for (const auto& triangle : triangles_) {
@@ -188,16 +185,13 @@ SurfaceDistance::SurfaceDistance(std::vector<Vec3> positions,
   auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
                                                                RTC_FORMAT_FLOAT3, 3 * sizeof(float),
                                                                positions_.size()));
-  auto* indices = static_cast<unsigned*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                              3 * sizeof(unsigned), triangles_.size()));
-  if (vertices == nullptr || indices == nullptr) Hierarchy::fail(RTC_ERROR_OUT_OF_MEMORY);
+  if (vertices == nullptr) Hierarchy::fail(RTC_ERROR_OUT_OF_MEMORY);
+  static_assert(sizeof(Triangles::value_type) == 3 * sizeof(unsigned));
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                             triangles_.data(), 0, 3 * sizeof(unsigned), triangles_.size());
   for (std::size_t v = 0; v < positions_.size(); ++v) {
     const Vec3 p = scale_ * (positions_[v] - centre_);
     for (int k = 0; k < 3; ++k) vertices[3 * v + k] = static_cast<float>(p[k]);
-  }
-  for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    for (int k = 0; k < 3; ++k) indices[3 * t + k] = static_cast<unsigned>(triangles_[t][k]);
   }
   rtcSetGeometryPointQueryFunction(geometry, visit_triangle);
   rtcCommitGeometry(geometry);

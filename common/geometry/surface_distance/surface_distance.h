@@ -29,9 +29,14 @@ ClosestPoint closest_point_on_triangle(const Vec3& p, const Vec3& a, const Vec3&
 /// not depend on how the hierarchy was built. Queries may run in parallel.
 class SurfaceDistance {
  public:
-  /// \param positions  finite where used, any length unit
+  using Triangles = std::vector<std::array<Index, 3>>;
+
+  /// \param positions, triangles  kept by reference; positions are finite where used, in any unit
   /// \throw PreconditionError where there is no triangle
-  SurfaceDistance(std::vector<Vec3> positions, std::vector<std::array<Index, 3>> triangles);
+  SurfaceDistance(const std::vector<Vec3>& positions, const Triangles& triangles);
+  SurfaceDistance(std::vector<Vec3>&&, const Triangles&) = delete;
+  SurfaceDistance(const std::vector<Vec3>&, Triangles&&) = delete;
+  SurfaceDistance(std::vector<Vec3>&&, Triangles&&) = delete;
   SurfaceDistance(const SurfaceDistance&) = delete;
   SurfaceDistance& operator=(const SurfaceDistance&) = delete;
   ~SurfaceDistance();
@@ -51,7 +56,7 @@ class SurfaceDistance {
   [[nodiscard]] Vec3 point(const ClosestPoint& at) const;
 
   [[nodiscard]] const std::vector<Vec3>& positions() const { return positions_; }
-  [[nodiscard]] const std::vector<std::array<Index, 3>>& triangles() const { return triangles_; }
+  [[nodiscard]] const Triangles& triangles() const { return triangles_; }
 
  private:
   struct Hierarchy;
@@ -62,8 +67,8 @@ class SurfaceDistance {
   [[nodiscard]] ClosestPoint query(const Vec3& p, const ClosestPoint& best,
                                    const std::function<bool(Index)>* accept) const;
 
-  std::vector<Vec3> positions_;
-  std::vector<std::array<Index, 3>> triangles_;
+  const std::vector<Vec3>& positions_;
+  const Triangles& triangles_;
   Vec3 centre_ = Vec3::Zero();
   double scale_ = 1;  // into the hierarchy's frame, where the triangles lie within [-1, 1]
   std::unique_ptr<Hierarchy> hierarchy_;

@@ -37,7 +37,7 @@ struct Data {
   LineSet lines;
   double radius;
   Spacing spacing{lines.spacing_along_min, lines.spacing_along_max};
-  TraceDomain domain{mesh, field, spacing, face_normals(mesh)};
+  TraceDomain domain{mesh, field, spacing, FaceNormals(mesh)};
   std::vector<BarrierLine> barriers = barrier_lines(domain);
   std::vector<std::uint8_t> flags = barrier_flags(mesh, barriers);
   FaceBlocks blocks{mesh, spacing, flags};

@@ -117,7 +117,8 @@ TEST(SurfaceDistance, QueriesMayRunInParallel) {
 TEST(SurfaceDistance, FilterAndReachAreRespected) {
   const std::vector<Vec3> positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0},
                                        {0, 0, 5}, {1, 0, 5}, {0, 1, 5}};
-  const SurfaceDistance surface(positions, {{0, 1, 2}, {3, 4, 5}});
+  const SurfaceDistance::Triangles triangles = {{0, 1, 2}, {3, 4, 5}};
+  const SurfaceDistance surface(positions, triangles);
   const Vec3 p(0.2, 0.2, 1);
   const auto only_second = [](Index t) { return t == 1; };
   EXPECT_EQ(surface.closest_if(p, 10, only_second).triangle, 1);
@@ -128,7 +129,9 @@ TEST(SurfaceDistance, FilterAndReachAreRespected) {
 }
 
 TEST(SurfaceDistance, NothingToMeasureAgainstIsRefused) {
-  EXPECT_THROW(SurfaceDistance({}, {}), PreconditionError);
+  const std::vector<Vec3> positions;
+  const SurfaceDistance::Triangles triangles;
+  EXPECT_THROW(SurfaceDistance(positions, triangles), PreconditionError);
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ TEST(FaceChart, LaysFacesOutIsometrically) {
 
 TEST(FaceChart, AxesTieTheChartToSpace) {
   const TriMesh mesh = rough_torus();
-  const std::vector<Vec3> normals = face_normals(mesh);
+  const FaceNormals normals(mesh);
   for (Index f = 0; f < mesh.face_count(); ++f) {
     const FaceChart chart = lay_out(mesh, f);
     const ChartAxes axes = chart_axes(mesh, f, normals[f]);

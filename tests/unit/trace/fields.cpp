@@ -26,7 +26,7 @@ TriMesh sample_mesh(SampleKind kind, std::int64_t faces, double jitter) {
 PrincipalField field_along(const TriMesh& mesh, const std::function<Vec3(const Vec3&)>& direction) {
   const Index n = mesh.wedge_count();
   PrincipalField field;
-  field.normal = wedge_normals(mesh, face_normals(mesh));
+  field.normal = wedge_normals(mesh, FaceNormals(mesh));
   for (Index w = 0; w < n; ++w) {
     const Vec3 d = direction(mesh.positions[mesh.wedge_vertex[w]]);
     const Vec3& normal = field.normal[w];

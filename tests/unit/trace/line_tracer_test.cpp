@@ -61,7 +61,7 @@ class LinesOnAPlane : public ::testing::Test {
   TriMesh mesh_ = sample_mesh(SampleKind::plane, 3000, 0.8);
   PrincipalField field_ = field_along(mesh_, [](const Vec3&) { return Vec3::UnitX(); });
   Spacing spacing_;
-  TraceDomain domain_{mesh_, field_, spacing_, face_normals(mesh_)};
+  TraceDomain domain_{mesh_, field_, spacing_, FaceNormals(mesh_)};
   std::vector<std::uint8_t> barriers_;
 };
 
@@ -236,7 +236,7 @@ TracedLine only_line(const TriMesh& mesh, const PrincipalField& field, double di
   Spacing spacing;
   spacing.along.assign(mesh.wedge_count(), distance);
   spacing.across.assign(mesh.wedge_count(), distance);
-  const TraceDomain domain{mesh, field, spacing, face_normals(mesh)};
+  const TraceDomain domain{mesh, field, spacing, FaceNormals(mesh)};
   std::vector<std::uint8_t> barriers(static_cast<std::size_t>(mesh.halfedge_count()), 0);
   for (Index h = 0; h < mesh.halfedge_count(); ++h) barriers[h] = mesh.is_boundary(h);
   return Lines(domain, barriers).trace(seed).line;
