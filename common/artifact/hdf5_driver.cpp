@@ -92,8 +92,8 @@ herr_t truncate_output(H5FD_t* file, hid_t /*transfer*/, hbool_t /*closing*/) {
 
 /// Metadata is gathered in memory and written in large pieces, as by HDF5's own drivers.
 herr_t query_features(const H5FD_t* /*file*/, unsigned long* features) {
-  *features = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA |
-              H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_AGGREGATE_SMALLDATA;
+  *features = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE |
+              H5FD_FEAT_AGGREGATE_SMALLDATA;
   return 0;
 }
 
