@@ -41,16 +41,20 @@ const Output& output_of(const H5FD_t* file) { return *reinterpret_cast<const Out
 H5FD_t* open_output(const char* path, unsigned /*flags*/, hid_t access, haddr_t /*most*/) {
   const auto* settings = static_cast<const Settings*>(H5Pget_driver_info(access));
   if (settings == nullptr) return nullptr;
+  const int descriptor = ::open(path, O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (descriptor < 0) {
+    *settings->error = errno;
+    return nullptr;
+  }
   auto* output = new Output{};
+  output->descriptor = descriptor;
   output->error = settings->error;
-  output->descriptor = ::open(path, O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  output->note(output->descriptor >= 0);
   return &output->base;
 }
 
 herr_t close_output(H5FD_t* file) {
   Output& output = output_of(file);
-  if (output.descriptor >= 0) output.note(::close(output.descriptor) == 0);
+  output.note(::close(output.descriptor) == 0);
   delete &output;
   return 0;
 }

@@ -172,8 +172,9 @@ Writer::Writer(const std::filesystem::path& path, std::filesystem::path shown)
   H5Pset_obj_track_times(creation.id(), false);
   if (!set_output_driver(access.id(), &error_)) fail("", "cannot be created");
   id_ = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id());
+  if (id_ >= 0) return;
   require_written();
-  if (id_ < 0) fail("", "cannot be created");
+  fail("", "cannot be created");
 }
 
 void Writer::group(const std::string& name) {
