@@ -30,7 +30,7 @@ class Deviation {
   /// \param mesh, surface  the input and its faces, in the same order
   /// \param face_normals   of the input; kept by reference
   /// \param wedge_normals  [W] of the input
-  /// \param triangles      of results that will be measured
+  /// \param triangles      number of them in the results that will be measured
   Deviation(const TriMesh& mesh, const SurfaceDistance& surface, const FaceNormals& face_normals,
             const std::vector<Vec3>& wedge_normals, std::size_t triangles);
 
