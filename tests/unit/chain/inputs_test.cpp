@@ -10,8 +10,8 @@ struct Given {
   Given() {
     TensorField field;
     field.tensor.assign(100, {1, 2, 3, 4, 5, 6});
-    place = field.tensor.data();
     value = std::make_shared<Value>(std::move(field));
+    place = std::get<TensorField>(*value).tensor.data();
     inputs.add("tensor", {value, "here"});
   }
 
