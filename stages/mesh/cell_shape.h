@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vector>
+#include <boost/container/small_vector.hpp>
 
 #include "common/core/types.h"
 #include "stages/mesh/polygon_graph.h"
@@ -8,9 +8,9 @@
 namespace strake {
 
 /// Corners of a cell in order, counter-clockwise seen from outside.
-using Polygon = std::vector<Vec3>;
+using Polygon = boost::container::small_vector<Vec3, 8>;
 
-Polygon corner_positions(const PolygonGraph& graph, const std::vector<Index>& cell);
+Polygon corner_positions(const PolygonGraph& graph, const DartLoop& cell);
 
 /// The vector area of a polygon (Newell).
 Vec3 vector_area(const Polygon& p);

@@ -27,7 +27,7 @@ double edge_ratio(const PolygonGraph& graph, Index dart, const EdgeLength& wante
 
 /// Gain of halving a cell between the middles of two edges, or from one to the opposite corner.
 double halving_gain(const PolygonGraph& graph, Index in, Index out) {
-  const std::vector<Index> cell = graph.cell(out);
+  const DartLoop cell = graph.cell(out);
   const Polygon p = corner_positions(graph, cell);
   const Vec3 normal = vector_area(p);
   Polygon whole;  // with the new nodes, starting at the middle of `out`
@@ -82,7 +82,7 @@ std::optional<Chord> follow_chord(const PolygonGraph& graph, Index dart, std::si
       chord.ends_outside = true;
       return chord;
     }
-    const std::vector<Index> cell = graph.cell(across);
+    const DartLoop cell = graph.cell(across);
     const Index name = graph.name_of_cell(across);
     if (std::find(visited.begin(), visited.end(), name) != visited.end()) return std::nullopt;
     if (cell.size() == 3 || cell.size() == 5) return chord;

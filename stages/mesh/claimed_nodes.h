@@ -19,7 +19,7 @@ class ClaimedNodes {
     return node >= static_cast<Index>(claimed_.size()) || claimed_[node] != 0;
   }
   /// Takes the origins of darts. \return false, and none is taken, where one has been before
-  [[nodiscard]] bool claim(const std::vector<Index>& darts) {
+  [[nodiscard]] bool claim(const DartLoop& darts) {
     if (std::any_of(darts.begin(), darts.end(), [&](Index d) { return has(graph_->from(d)); })) {
       return false;
     }

@@ -60,7 +60,7 @@ bool find_starved(const TriMesh& mesh, const std::vector<Index>& component,
   std::vector<char> seen(g.dart_count(), 0);
   for (Index d = 0; d < g.dart_count(); ++d) {
     if (!g.is_alive(d) || seen[d] != 0) continue;
-    const std::vector<Index> cell = graph.cell(d);
+    const DartLoop cell = graph.cell(d);
     for (const Index other : cell) seen[other] = 1;
     if (cell.size() > 2 && !graph.is_hole(d)) ++cells[component[graph.node(g.from(d)).face]];
   }
@@ -96,7 +96,7 @@ QuadMesh assemble(const TriMesh& mesh, const PolygonGraph& graph) {
   std::vector<Index> corners;
   for (Index d = 0; d < g.dart_count(); ++d) {
     if (!g.is_alive(d) || seen[d] != 0) continue;
-    const std::vector<Index> cell = graph.cell(d);
+    const DartLoop cell = graph.cell(d);
     for (const Index other : cell) seen[other] = 1;
     if (graph.is_hole(d)) continue;
     corners.clear();

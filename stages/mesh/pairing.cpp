@@ -56,7 +56,7 @@ class Pairing {
     std::vector<char> seen(g.dart_count(), 0);
     for (Index d = 0; d < g.dart_count(); ++d) {
       if (!g.is_alive(d) || seen[d] != 0) continue;
-      const std::vector<Index> cell = graph_.cell(d);
+      const DartLoop cell = graph_.cell(d);
       for (const Index other : cell) seen[other] = 1;
       if (graph_.is_hole(d)) continue;
       if (cell.size() == 3 || cell.size() == 5) {
@@ -144,10 +144,10 @@ class Pairing {
       const std::vector<Index> beside = all ? cells_around(graph_, sides) : sides;
       cells.insert(cells.end(), beside.begin(), beside.end());
     }
-    std::vector<Index> corners;
+    DartLoop corners;
     for (const Index dart : cells) {
       if (graph_.is_hole(dart)) continue;
-      const std::vector<Index> cell = graph_.cell(dart);
+      const DartLoop cell = graph_.cell(dart);
       corners.insert(corners.end(), cell.begin(), cell.end());
     }
     return claimed_.claim(corners);

@@ -67,16 +67,16 @@ class Partitioner {
 
   PartitionCounts run() {
     separate_pinched();
-    divide_all([&](const std::vector<Index>& cell) {
+    divide_all([&](const DartLoop& cell) {
       return static_cast<Index>(cell.size()) > max_sides_ || has_reflex(cell, kMovableAngle);
     });
     move_into_line();
-    divide_all([&](const std::vector<Index>& cell) { return has_reflex(cell, 0); });
+    divide_all([&](const DartLoop& cell) { return has_reflex(cell, 0); });
     return counts_;
   }
 
  private:
-  bool has_reflex(const std::vector<Index>& cell, double above) const {
+  bool has_reflex(const DartLoop& cell, double above) const {
     const Polygon p = corner_positions(graph_, cell);
     const Vec3 n = vector_area(p).normalized();
     for (std::size_t i = 0; i < p.size(); ++i) {
@@ -105,7 +105,7 @@ class Partitioner {
     while (!stack.empty()) {
       const Index d = stack.back();
       stack.pop_back();
-      const std::vector<Index> cell = graph_.cell(d);
+      const DartLoop cell = graph_.cell(d);
       if (cell.size() < 4 || !needs(cell)) continue;
       const Index diagonal = best_diagonal(cell);
       if (diagonal == kNone) {
@@ -119,7 +119,7 @@ class Partitioner {
 
   /// Adds the diagonal with the best score; kNone where none is allowed. A reflex corner, where
   /// there is one, takes part in it.
-  Index best_diagonal(const std::vector<Index>& cell) {
+  Index best_diagonal(const DartLoop& cell) {
     const DartGraph& g = graph_.graph();
     const Polygon p = corner_positions(graph_, cell);
     const Vec3 n = vector_area(p).normalized();
@@ -167,7 +167,7 @@ class Partitioner {
   }
 
   /// Divides a cell from a new node in its middle, where all its diagonals are edges already.
-  void fan_out(const std::vector<Index>& cell) {
+  void fan_out(const DartLoop& cell) {
     Vec3 middle = Vec3::Zero();
     for (const Vec3& v : corner_positions(graph_, cell))
       middle += v / static_cast<double>(cell.size());
@@ -189,7 +189,7 @@ class Partitioner {
 
   /// For cells with too many sides to score all diagonals: the shortest that leaves at least a
   /// quarter of the sides on each side.
-  Index shortest_balanced_diagonal(const std::vector<Index>& cell, const Polygon& p,
+  Index shortest_balanced_diagonal(const DartLoop& cell, const Polygon& p,
                                    const FlatPolygon& flat) {
     const DartGraph& g = graph_.graph();
     const std::size_t n = p.size();
@@ -222,7 +222,7 @@ class Partitioner {
     while (!stack.empty() && budget-- > 0) {
       const Index d = stack.back();
       stack.pop_back();
-      std::vector<Index> cell = graph_.cell(d);
+      DartLoop cell = graph_.cell(d);
       const auto [i, j] = repeated(cell);
       if (i == j) continue;
       const auto arc_dart = [&](std::size_t from, std::size_t to) {
@@ -249,7 +249,7 @@ class Partitioner {
   }
 
   /// Two positions of a cell at the same node; equal where there are none.
-  std::pair<std::size_t, std::size_t> repeated(const std::vector<Index>& cell) const {
+  std::pair<std::size_t, std::size_t> repeated(const DartLoop& cell) const {
     std::vector<std::pair<Index, std::size_t>> nodes;
     for (std::size_t i = 0; i < cell.size(); ++i)
       nodes.emplace_back(graph_.graph().from(cell[i]), i);
@@ -271,7 +271,7 @@ class Partitioner {
     }
   }
 
-  Index straighten(const std::vector<Index>& cell) {
+  Index straighten(const DartLoop& cell) {
     if (cell.size() < 4) return 0;
     Index moved = 0;
     Polygon p = corner_positions(graph_, cell);

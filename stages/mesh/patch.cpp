@@ -163,10 +163,13 @@ class Divider {
 
 std::optional<Patch> join_cells(const PolygonGraph& graph, const std::vector<Index>& cells) {
   const DartGraph& g = graph.graph();
-  std::vector<Index> darts;
+  DartLoop darts;
   for (const Index d : cells) {
-    const std::vector<Index> cell = graph.cell(d);
-    darts.insert(darts.end(), cell.begin(), cell.end());
+    Index dart = d;
+    do {
+      darts.push_back(dart);
+      dart = g.next(dart);
+    } while (dart != d);
   }
   std::sort(darts.begin(), darts.end());
   if (std::adjacent_find(darts.begin(), darts.end()) != darts.end()) return std::nullopt;
@@ -184,7 +187,7 @@ std::optional<Patch> join_cells(const PolygonGraph& graph, const std::vector<Ind
   }
   // A tree of edges between cells leaves no node inside.
   if (start == kNone || patch.inner.size() + 1 != cells.size()) return std::nullopt;
-  std::vector<Index> nodes;
+  DartLoop nodes;
   Index d = start;
   do {
     patch.outline.push_back(d);

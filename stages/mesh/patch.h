@@ -11,8 +11,8 @@ namespace strake {
 
 /// A few neighbouring cells as one polygon.
 struct Patch {
-  std::vector<Index> outline;  ///< [n] darts counter-clockwise, n even and at least 4
-  std::vector<Index> inner;    ///< a dart of each edge inside
+  DartLoop outline;  ///< [n] darts counter-clockwise, n even and at least 4
+  DartLoop inner;    ///< a dart of each edge inside
 };
 
 /// Joins cells to one polygon without a node or a feature inside.

@@ -129,8 +129,8 @@ Index PolygonGraph::degree(Index dart) const {
   return count;
 }
 
-std::vector<Index> PolygonGraph::cell(Index dart) const {
-  std::vector<Index> darts;
+DartLoop PolygonGraph::cell(Index dart) const {
+  DartLoop darts;
   Index d = dart;
   do {
     darts.push_back(d);
@@ -243,37 +243,44 @@ SurfaceNode PolygonGraph::between(const SurfaceNode& a, const SurfaceNode& b, do
   return node;
 }
 
+/// A point of the course of an edge, both ends included.
+const SurfaceNode& PolygonGraph::point(Index even, std::size_t i) const {
+  const std::vector<SurfaceNode>& inner = course_[DartGraph::edge_of(even)];
+  if (i == 0) return nodes_[graph_.from(even)];
+  return i <= inner.size() ? inner[i - 1] : nodes_[graph_.to(even)];
+}
+
 PolygonGraph::Cut PolygonGraph::cut(Index dart, double share) const {
   const Index even = dart & ~1;
-  if (dart != even) share = 1 - share;
-  Cut result;
-  result.points = course_[DartGraph::edge_of(dart)];
-  std::vector<SurfaceNode>& points = result.points;
-  points.insert(points.begin(), nodes_[graph_.from(even)]);
-  points.push_back(nodes_[graph_.to(even)]);
-  std::vector<double> arc(points.size(), 0);
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    arc[i] = arc[i - 1] + (points[i].position - points[i - 1].position).norm();
-  }
-  const double wanted = share * arc.back();
+  const std::size_t last = course_[DartGraph::edge_of(dart)].size() + 1;
+  const auto piece = [&](std::size_t i) {
+    return (point(even, i).position - point(even, i - 1).position).norm();
+  };
+  double length = 0;
+  for (std::size_t i = 1; i <= last; ++i) length += piece(i);
+  const double wanted = (dart == even ? share : 1 - share) * length;
+  double before = 0;  // length up to the piece that holds the place
+  double after = piece(1);
   std::size_t at = 1;
-  while (at + 1 < points.size() && arc[at] < wanted) ++at;
-  const double span = arc[at] - arc[at - 1];
-  const double local = span > 0 ? std::clamp((wanted - arc[at - 1]) / span, 0.0, 1.0) : 0.5;
-  result.resume = at;
-  constexpr double kSnap = 0.3;  // to a point that exists, so that corners of the course are kept
-  if (local > 1 - kSnap && at + 1 < points.size()) {
-    result.node = points[at];
-    result.resume = at + 1;
-  } else if (local < kSnap && at > 1) {
-    result.node = points[at - 1];
-    --at;
-  } else {
-    result.node = between(points[at - 1], points[at], std::clamp(local, 0.1, 0.9));
+  while (at < last && after < wanted) {
+    before = after;
+    after += piece(++at);
   }
-  result.stop = at;
-  result.node.vertex = kNone;
-  return result;
+  const double span = after - before;
+  const double local = span > 0 ? std::clamp((wanted - before) / span, 0.0, 1.0) : 0.5;
+  constexpr double kSnap = 0.3;  // to a point that exists, so that corners of the course are kept
+  if (local > 1 - kSnap && at < last) return {at, at + 1, 0};
+  if (local < kSnap && at > 1) return {at - 1, at, 0};
+  return {at, at, std::clamp(local, 0.1, 0.9)};
+}
+
+Vec3 PolygonGraph::split_position(Index dart, double share) const {
+  const Index even = dart & ~1;
+  const Cut cut = this->cut(dart, share);
+  const Vec3& at = point(even, cut.stop).position;
+  if (cut.is_point()) return at;
+  const Vec3& before = point(even, cut.stop - 1).position;
+  return before + cut.local * (at - before);
 }
 
 Index PolygonGraph::split(Index dart, double share) {
@@ -281,16 +288,24 @@ Index PolygonGraph::split(Index dart, double share) {
   const Index even = 2 * edge;
   const Cut cut = this->cut(dart, share);
   const auto node = static_cast<Index>(nodes_.size());
-  nodes_.push_back(cut.node);
+  SurfaceNode made = cut.is_point()
+                         ? point(even, cut.stop)
+                         : between(point(even, cut.stop - 1), point(even, cut.stop), cut.local);
+  made.vertex = kNone;
+  nodes_.push_back(made);
   rank_.push_back(is_barrier(even) ? NodeRank::barrier : NodeRank::line);
   const Index second = graph_.split_edge(even, node);
   kind_.push_back(kind_[edge]);
   line_.push_back(line_[edge]);
   outer_.push_back(outer_[even]);
   outer_.push_back(outer_[even + 1]);
-  const auto first = cut.points.begin();
-  course_.emplace_back(first + static_cast<std::ptrdiff_t>(cut.resume), cut.points.end() - 1);
-  course_[edge].assign(first + 1, first + static_cast<std::ptrdiff_t>(cut.stop));
+  // Inner points count from one.
+  const auto at = [&](std::size_t i) {
+    return course_[edge].begin() + static_cast<std::ptrdiff_t>(i) - 1;
+  };
+  std::vector<SurfaceNode> rest(at(cut.resume), course_[edge].end());
+  course_[edge].erase(at(cut.stop), course_[edge].end());
+  course_.push_back(std::move(rest));
   return dart == even ? second : DartGraph::opposite(even);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <boost/container/small_vector.hpp>
 #include <vector>
 
 #include "stages/mesh/overlay.h"
@@ -8,6 +9,9 @@ namespace strake {
 
 /// How firmly a node stays where it is; a node may be merged into one of equal or higher rank.
 enum class NodeRank : std::uint8_t { line, barrier, corner };
+
+/// Darts around a cell or a few of them, in order; hardly ever more than twelve.
+using DartLoop = boost::container::small_vector<Index, 12>;
 
 /// The cells between lines as polygons: nodes are crossings and corners, edges are pieces of lines.
 class PolygonGraph {
@@ -31,7 +35,7 @@ class PolygonGraph {
   [[nodiscard]] bool is_hole(Index dart) const;
   [[nodiscard]] Index degree(Index dart) const;
   /// Darts of the cell left of `dart`, starting with it.
-  [[nodiscard]] std::vector<Index> cell(Index dart) const;
+  [[nodiscard]] DartLoop cell(Index dart) const;
   /// The least dart of the cell left of `dart`, to tell cells apart.
   [[nodiscard]] Index name_of_cell(Index dart) const;
   /// A dart from a to b where `around` leaves a; kNone where there is no such edge.
@@ -52,24 +56,26 @@ class PolygonGraph {
   /// \return dart that leaves the new node towards to(dart)
   Index split(Index dart, double share);
   /// Where `split` would put the new node.
-  [[nodiscard]] Vec3 split_position(Index dart, double share) const {
-    return cut(dart, share).node.position;
-  }
+  [[nodiscard]] Vec3 split_position(Index dart, double share) const;
   /// Moves a node on or near the surface; its place in the mesh stays that of its foot.
   void move(Index n, const Vec3& position) { nodes_[n].position = position; }
   /// Points along the edge, both ends included, in the direction of `dart`.
   [[nodiscard]] std::vector<Vec3> course(Index dart) const;
 
  private:
-  /// A point on an edge, and which points of its course come before and after it.
+  /// A place on an edge, and which points of its course come before and after it. Points count
+  /// along the even dart, both ends included.
   struct Cut {
-    SurfaceNode node;
-    std::vector<SurfaceNode> points;  ///< the whole course, ends included, along the even dart
-    std::size_t stop = 0;             ///< points[1 .. stop) come before the node
-    std::size_t resume = 0;           ///< points[resume .. size - 1) come after it
+    std::size_t stop = 0;    ///< points 1 .. stop - 1 come before the place
+    std::size_t resume = 0;  ///< points from here on come after it
+    double local = 0;        ///< share of the way from point stop - 1 to the next, where it is none
+
+    /// Whether it is a point of the course, which is left out then.
+    [[nodiscard]] bool is_point() const { return resume > stop; }
   };
 
   [[nodiscard]] Cut cut(Index dart, double share) const;
+  [[nodiscard]] const SurfaceNode& point(Index even, std::size_t i) const;
   void add_chain(const Overlay& overlay, Index first, std::vector<Index>& dart_of,
                  const std::vector<char>& kept, std::vector<Index>& node_of);
   void extend_course(Index first, Index dart);

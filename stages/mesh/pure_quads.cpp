@@ -68,7 +68,7 @@ std::vector<Index> cheapest_way(const PolygonGraph& graph, Index start) {
 /// Divides the odd face that the dart from a new node on its outline leaves into.
 void divide_odd(PolygonGraph& graph, Index leaving) {
   const DartGraph& g = graph.graph();
-  const std::vector<Index> cell = graph.cell(leaving);
+  const DartLoop cell = graph.cell(leaving);
   if (cell.size() == 6) {
     graph.connect(leaving, cell[3]);
     return;
@@ -87,7 +87,7 @@ void divide_odd(PolygonGraph& graph, Index leaving) {
 /// \param in, out  the darts that leave these nodes in the cell
 void divide_quad(PolygonGraph& graph, Index in, Index out) {
   const DartGraph& g = graph.graph();
-  const std::vector<Index> cell = graph.cell(in);
+  const DartLoop cell = graph.cell(in);
   const std::size_t at =
       static_cast<std::size_t>(std::find(cell.begin(), cell.end(), out) - cell.begin());
   if (at == 3) {

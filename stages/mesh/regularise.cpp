@@ -56,7 +56,7 @@ class Regularising {
     std::vector<char> seen(g.dart_count(), 0);
     for (Index d = 0; d < g.dart_count(); ++d) {
       if (!g.is_alive(d) || seen[d] != 0) continue;
-      const std::vector<Index> cell = graph_.cell(d);
+      const DartLoop cell = graph_.cell(d);
       for (const Index other : cell) seen[other] = 1;
       if (cell.size() != 4 || graph_.is_hole(d)) continue;
       if (any_corner(cell, [&](Index n) { return active_[n] != 0; })) {
@@ -74,7 +74,7 @@ class Regularising {
     return found;
   }
 
-  [[nodiscard]] bool any_corner(const std::vector<Index>& cell, const auto& is_wanted) const {
+  [[nodiscard]] bool any_corner(const DartLoop& cell, const auto& is_wanted) const {
     return std::any_of(cell.begin(), cell.end(),
                        [&](Index d) { return is_wanted(graph_.graph().from(d)); });
   }
@@ -203,9 +203,9 @@ class Regularising {
     const DartGraph& g = graph_.graph();
     const Index dart = change.closed_quad;
     if (claimed.has(g.from(dart)) || claimed.has(g.from(across(dart)))) return false;
-    std::vector<Index> corners;
+    DartLoop corners;
     for (const Index cell : cells_around(graph_, {dart, across(dart)})) {
-      const std::vector<Index> around = graph_.cell(cell);
+      const DartLoop around = graph_.cell(cell);
       corners.insert(corners.end(), around.begin(), around.end());
     }
     return claimed.claim(corners);

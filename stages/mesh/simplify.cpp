@@ -15,7 +15,7 @@ constexpr double kLeastTurnCosine = 0.3;
 /// Corners of the feature graph are only merged below this share of the wanted edge length.
 constexpr double kShortestCornerEdge = 0.1;
 
-Vec3 newell_after_move(const PolygonGraph& graph, const std::vector<Index>& cell, Index moved,
+Vec3 newell_after_move(const PolygonGraph& graph, const DartLoop& cell, Index moved,
                        const Vec3& target) {
   Vec3 normal = Vec3::Zero();
   const auto at = [&](std::size_t i) -> const Vec3& {
@@ -31,7 +31,7 @@ bool keeps_faces(const PolygonGraph& graph, Index dart) {
   const Vec3& target = graph.position(g.to(dart));
   for (Index d = g.rotate_ccw(dart); d != dart; d = g.rotate_ccw(d)) {
     if (graph.is_hole(d)) continue;
-    const std::vector<Index> cell = graph.cell(d);
+    const DartLoop cell = graph.cell(d);
     if (cell.size() == 3 && (g.to(d) == g.to(dart) || g.from(g.prev(d)) == g.to(dart))) continue;
     const Vec3 before = newell_after_move(graph, cell, kNone, target);
     const Vec3 after = newell_after_move(graph, cell, g.from(dart), target);
@@ -202,7 +202,7 @@ bool keeps_topology(const PolygonGraph& graph, Index dart) {
     return false;
   int triangles = 0;
   for (const Index side : {dart, DartGraph::opposite(dart)}) {
-    const std::vector<Index> cell = graph.cell(side);
+    const DartLoop cell = graph.cell(side);
     if (cell.size() < 3) return false;
     if (cell.size() > 3) continue;
     ++triangles;
@@ -215,14 +215,14 @@ bool keeps_topology(const PolygonGraph& graph, Index dart) {
   }
   if (common != triangles) return false;
   // A cell that has both ends elsewhere on its outline would be pinched.
-  const std::vector<Index> left = graph.cell(dart);
-  const std::vector<Index> right = graph.cell(DartGraph::opposite(dart));
+  const DartLoop left = graph.cell(dart);
+  const DartLoop right = graph.cell(DartGraph::opposite(dart));
   for (Index d = g.rotate_ccw(dart); d != dart; d = g.rotate_ccw(d)) {
     if (std::find(left.begin(), left.end(), d) != left.end() ||
         std::find(right.begin(), right.end(), d) != right.end()) {
       continue;
     }
-    const std::vector<Index> cell = graph.cell(d);
+    const DartLoop cell = graph.cell(d);
     for (const Index other : cell) {
       if (g.from(other) == v) return false;
     }
