@@ -50,6 +50,13 @@ double halving_gain(const PolygonGraph& graph, Index in, Index out) {
   return penalty_now(p) - changed_penalty(one, normal) - changed_penalty(two, normal);
 }
 
+/// Whether halving an edge would leave a node of two edges, and two triangles that only count as
+/// quads.
+bool is_between_triangles(const PolygonGraph& graph, Index dart) {
+  const Index other = DartGraph::opposite(dart);
+  return !graph.is_outer(other) && graph.cell(dart).size() == 3 && graph.cell(other).size() == 3;
+}
+
 /// Where the ends of the rungs meet when a strip is taken out: in the middle, or at the end that is
 /// on a feature or boundary. Nothing where both are, or where the strip touches itself.
 std::optional<Moves> merging_moves(const PolygonGraph& graph, const Chord& chord) {
@@ -109,7 +116,10 @@ double split_price(const PolygonGraph& graph, const Chord& chord, const EdgeLeng
 }
 
 double split_gain(const PolygonGraph& graph, const Chord& chord) {
-  if (chord.rungs.size() == 1 && !can_halve(graph, chord.rungs.front())) return kNever;
+  if (chord.rungs.size() == 1) {
+    const Index rung = chord.rungs.front();
+    if (!can_halve(graph, rung) || is_between_triangles(graph, rung)) return kNever;
+  }
   double gain = 0;
   for (std::size_t k = 0; k < chord.rungs.size(); ++k) {
     const Index rung = chord.rungs[k];

@@ -54,14 +54,19 @@ TriMesh grid_mesh(const Grid& grid) {
 
 using KeepEdge = std::function<bool(const Vec3& from, const Vec3& to)>;
 
-/// The cells between those edges of a grid that `keep` accepts. The mesh must outlive them.
-PolygonGraph cells_of(const TriMesh& mesh, const KeepEdge& keep) {
+bool none(const Vec3& /*from*/, const Vec3& /*to*/) { return false; }
+
+/// The cells between those edges of a grid that `keep` or `is_feature` accepts. The mesh must
+/// outlive them.
+PolygonGraph cells_of(const TriMesh& mesh, const KeepEdge& keep,
+                      const KeepEdge& is_feature = none) {
   Overlay overlay = overlay_of(mesh);
   for (Index e = 0; e < overlay.graph.dart_count() / 2; ++e) {
     if (overlay.kind[e] != EdgeKind::surface) continue;
-    const Vec3& a = overlay.nodes[overlay.graph.from(2 * e)].position;
-    const Vec3& b = overlay.nodes[overlay.graph.to(2 * e)].position;
-    if (keep(a + mesh.origin, b + mesh.origin)) overlay.kind[e] = EdgeKind::line;
+    const Vec3 a = overlay.nodes[overlay.graph.from(2 * e)].position + mesh.origin;
+    const Vec3 b = overlay.nodes[overlay.graph.to(2 * e)].position + mesh.origin;
+    if (keep(a, b)) overlay.kind[e] = EdgeKind::line;
+    if (is_feature(a, b)) overlay.kind[e] = EdgeKind::feature;
   }
   reduce_to_lines(overlay);
   return {mesh, overlay};
@@ -143,6 +148,21 @@ TEST(PairOddFaces, JoinsTwoTriangles) {
   ASSERT_EQ(sides(triangles)[3], 2);
   EXPECT_EQ(pair_odd_faces(triangles, unit_length, 1).divided_patches, 1);
   EXPECT_EQ(sides(triangles), sides(whole));
+}
+
+TEST(PairOddFaces, MakesNoNodeOfTwoEdgesBetweenTrianglesAtACrease) {
+  const TriMesh mesh = grid_mesh({steps(6), steps(6)});
+  PolygonGraph graph = cells_of(
+      mesh, [](const Vec3& a, const Vec3& b) { return !is_diagonal(a, b); },
+      [](const Vec3& a, const Vec3& b) {
+        return is_diagonal(a, b) && ((a + b) / 2 - Vec3(2.5, 2.5, 0)).norm() < 0.1;
+      });
+  ASSERT_EQ(sides(graph)[3], 2);
+  pair_odd_faces(graph, unit_length, 1);
+  for (Index d = 0; d < graph.graph().dart_count(); ++d) {
+    if (!graph.graph().is_alive(d) || graph.kind(d) != EdgeKind::feature) continue;
+    EXPECT_GT(graph.degree(d), 2);
+  }
 }
 
 bool has_double_edge(const PolygonGraph& graph) {
