@@ -1,5 +1,6 @@
 """The collection of test models: its table, and references that the meter can read."""
 
+import math
 import pathlib
 import re
 import struct
@@ -64,8 +65,41 @@ def write_welded_obj(stl, obj):
             out.write(f"f {a} {b} {c}\n")
 
 
+def write_cut_apart(source, obj):
+    """Copies an OBJ, and cuts quads whose shorter diagonal is that of another quad along their longer.
+
+    Two quads that share three corners would have a triangle in common, which is no surface: with the
+    shorter diagonal in both, another program than strake measures against something else.
+    \return whether there are any
+    """
+    points, taken, found, lines = [], set(), False, []
+    for line in source.read_text(encoding="utf-8").splitlines():
+        fields = line.split()
+        if fields[:1] == ["v"]:
+            points.append([float(x) for x in fields[1:4]])
+        if fields[:1] == ["f"] and len(fields) == 5:
+            corners = [int(field.split("/")[0]) for field in fields[1:]]
+            quad = [c - 1 if c > 0 else len(points) + c for c in corners]
+            lengths = [math.dist(points[quad[k]], points[quad[k + 2]]) for k in (0, 1)]
+            first = 0 if lengths[0] <= lengths[1] else 1
+            diagonal = frozenset((quad[first], quad[first + 2]))
+            if diagonal in taken:
+                found = True
+                a, b, c, d = fields[2 - first:] + fields[1:2 - first]
+                lines += [f"f {a} {b} {c}", f"f {a} {c} {d}"]
+                continue
+            taken.add(diagonal)
+        lines.append(line)
+    if found:
+        obj.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return found
+
+
 def reference(model_path, scratch):
     """A file the meter reads that holds the same surface."""
+    if model_path.suffix.lower() == ".obj":
+        obj = scratch / (model_path.stem + "-cut-apart.obj")
+        return obj if obj.exists() or write_cut_apart(model_path, obj) else model_path
     if model_path.suffix.lower() != ".stl":
         return model_path
     obj = scratch / (model_path.stem + "-welded.obj")
