@@ -10,7 +10,7 @@ Complex row_times(const HermitianMatrix& matrix, Index i, const Vector& x) {
   double real = matrix.diagonal[i] * x[i].real();
   double imag = matrix.diagonal[i] * x[i].imag();
   for (Index at = matrix.offsets[i]; at < matrix.offsets[i + 1]; ++at) {
-    const Complex& a = matrix.values[at];
+    const Complex a(matrix.values[at]);
     const Complex& b = x[matrix.columns[at]];
     real += a.real() * b.real() - a.imag() * b.imag();
     imag += a.real() * b.imag() + a.imag() * b.real();

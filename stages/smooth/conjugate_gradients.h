@@ -10,10 +10,11 @@ namespace strake {
 
 /// A Hermitian, positive definite matrix in compressed rows, its real diagonal apart.
 struct HermitianMatrix {
-  const std::vector<Index>& offsets;         ///< [n + 1]
-  const std::vector<Index>& columns;         ///< [E], without the diagonal
-  std::vector<std::complex<double>> values;  ///< [E]
-  std::vector<double> diagonal;              ///< [n], positive
+  const std::vector<Index>& offsets;  ///< [n + 1]
+  const std::vector<Index>& columns;  ///< [E], without the diagonal
+  /// [E] in single precision: reading them is most of the time that a product takes.
+  std::vector<std::complex<float>> values;
+  std::vector<double> diagonal;  ///< [n], positive
 };
 
 /// Solves matrix * x = right by `conjugate_gradients` with the diagonal as preconditioner.

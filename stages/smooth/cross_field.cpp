@@ -58,12 +58,13 @@ CrossSystem cross_system(const TriMesh& mesh, const WedgeGraph& graph, double st
   std::vector<TangentFrame> frames(n);
   const std::vector<double> areas = wedge_areas(mesh);
   const std::vector<Index> halfedges = graph_halfedges(mesh, graph);
-  CrossSystem system = {{graph.offsets, graph.neighbours,
-                         std::vector<Complex>(graph.neighbours.size()), std::vector<double>(n)},
-                        std::vector<double>(n),
-                        std::vector<Complex>(n),
-                        std::vector<Complex>(n),
-                        std::vector<double>(n)};
+  CrossSystem system = {
+      {graph.offsets, graph.neighbours, std::vector<std::complex<float>>(graph.neighbours.size()),
+       std::vector<double>(n)},
+      std::vector<double>(n),
+      std::vector<Complex>(n),
+      std::vector<Complex>(n),
+      std::vector<double>(n)};
   tbb::parallel_for(Index{0}, graph.size(), [&](Index w) {
     frames[w] = tangent_frame(field.normal[w]);
     system.principal[w] = cross_power(frames[w].tangent_from_world(field.t_min[w]));
@@ -90,8 +91,9 @@ CrossSystem cross_system(const TriMesh& mesh, const WedgeGraph& graph, double st
       } else {
         weight += dirichlet_weight(mesh, mesh.twin[h]);
       }
-      diagonal += weight;
-      system.matrix.values[at] = -weight * here * std::conj(there);
+      const std::complex<float> value(-weight * (here * std::conj(there)));
+      system.matrix.values[at] = value;
+      diagonal += std::abs(Complex(value));  // so rounding leaves no negative eigenvalue
     }
     if (!guides.distance.empty() && guides.distance[w] == 0) {
       diagonal += kGuideWeight;

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <complex>
 
 #include "common/core/error.h"
 #include "common/geometry/frames.h"
@@ -13,35 +14,53 @@
 namespace strake {
 namespace {
 
-using Tensor = std::array<double, 6>;
+using Complex = std::complex<double>;
 
-Mat3 to_matrix(const Tensor& t) {
-  Mat3 m;
-  m << t[0], t[1], t[2], t[1], t[3], t[4], t[2], t[4], t[5];
-  return m;
-}
+/// A symmetric tensor of the tangent plane of a wedge, in its `tangent_frame`. In a frame turned by
+/// an angle the mean stays, and the deviation turns by twice the angle.
+struct TangentTensor {
+  double mean = 0;    ///< (xx + yy) / 2
+  Complex deviation;  ///< (xx - yy) / 2 and xy
+};
 
-/// Principal frame of a tensor in the tangent plane of `normal`: the realignment of [MK04]
-/// section 2, as a projection. The larger eigenvalue belongs to the minimum direction (normal
-/// cycles swap the two).
-void set_frame(const Tensor& tensor, const Vec3& normal, Index w, PrincipalField& field) {
+/// The part of the tensor in the tangent plane: the realignment of [MK04] section 2, as a
+/// projection.
+TangentTensor project(const std::array<double, 6>& tensor, const Vec3& normal) {
   const TangentFrame frame = tangent_frame(normal);
-  const Mat3 t = to_matrix(tensor);
+  Mat3 t;
+  t << tensor[0], tensor[1], tensor[2], tensor[1], tensor[3], tensor[4], tensor[2], tensor[4],
+      tensor[5];
   const Vec3 tx = t * frame.x;
   const Vec3 ty = t * frame.y;
-  const Eigen2 eigen = eigen_symmetric2(frame.x.dot(tx), frame.x.dot(ty), frame.y.dot(ty));
-  field.t_min[w] = frame.world_from_tangent(eigen.direction_of_larger).normalized();
-  field.k_max[w] = eigen.larger;
-  field.k_min[w] = eigen.smaller;
+  const double xx = frame.x.dot(tx);
+  const double yy = frame.y.dot(ty);
+  return {(xx + yy) / 2, {(xx - yy) / 2, frame.x.dot(ty)}};
 }
 
-void set_frames(const std::vector<Tensor>& tensors, PrincipalField& field) {
+std::vector<TangentTensor> project(const TensorField& field) {
+  std::vector<TangentTensor> tensors(field.tensor.size());
   tbb::parallel_for(Index{0}, static_cast<Index>(tensors.size()),
-                    [&](Index w) { set_frame(tensors[w], field.normal[w], w, field); });
+                    [&](Index w) { tensors[w] = project(field.tensor[w], field.normal[w]); });
+  return tensors;
+}
+
+/// Principal frames of tensors. The larger eigenvalue belongs to the minimum direction (normal
+/// cycles swap the two).
+void set_frames(const std::vector<TangentTensor>& tensors, PrincipalField& field) {
+  tbb::parallel_for(Index{0}, static_cast<Index>(tensors.size()), [&](Index w) {
+    const auto& [mean, deviation] = tensors[w];
+    const Eigen2 eigen =
+        eigen_symmetric2(mean + deviation.real(), deviation.imag(), mean - deviation.real());
+    const TangentFrame frame = tangent_frame(field.normal[w]);
+    field.t_min[w] = frame.world_from_tangent(eigen.direction_of_larger).normalized();
+    field.k_max[w] = eigen.larger;
+    field.k_min[w] = eigen.smaller;
+  });
 }
 
 /// Confidence of faces ([MK04] equation 1) and wedges (mean over their faces).
-void set_confidence(const TriMesh& mesh, const FaceNormals& normals, PrincipalField& field) {
+void set_confidence(const TriMesh& mesh, PrincipalField& field) {
+  const FaceNormals normals(mesh);
   field.face_confidence.assign(mesh.face_count(), 0);
   tbb::parallel_for(Index{0}, mesh.face_count(), [&](Index f) {
     std::array<Vec3, 3> d;
@@ -65,29 +84,30 @@ void set_confidence(const TriMesh& mesh, const FaceNormals& normals, PrincipalFi
 
 /// One step of the operator of [MK04] section 4.1. Differs: neighbours' tensors are turned into
 /// the tangent plane of the wedge first, so that bending does not leak into the normal direction.
-std::vector<Tensor> smoothing_step(const WedgeGraph& graph, const PrincipalField& field,
-                                   const std::vector<Tensor>& tensors) {
-  std::vector<Tensor> next(tensors.size());
+void smoothing_step(const WedgeGraph& graph, const PrincipalField& field,
+                    const std::vector<TangentTensor>& tensors, std::vector<TangentTensor>& next) {
   tbb::parallel_for(Index{0}, static_cast<Index>(tensors.size()), [&](Index w) {
-    Mat3 sum = Mat3::Zero();
+    const TangentFrame frame = tangent_frame(field.normal[w]);
+    TangentTensor sum;
     double weights = 0;
     for (Index at = graph.offsets[w]; at < graph.offsets[w + 1]; ++at) {
       const Index j = graph.neighbours[at];
       const double confidence = field.wedge_confidence[j];
-      Mat3 turn;
-      for (int axis = 0; axis < 3; ++axis) {
-        turn.col(axis) = rotate_between(field.normal[j], field.normal[w], Vec3::Unit(axis));
-      }
-      sum += confidence * (turn * to_matrix(tensors[j]) * turn.transpose());
+      const Vec3 axis = tangent_frame(field.normal[j]).x;
+      const Vec2 here =
+          frame.tangent_from_world(rotate_between(field.normal[j], field.normal[w], axis));
+      const Complex turn(here.x(), here.y());
+      sum.mean += confidence * tensors[j].mean;
+      sum.deviation += confidence * (turn * turn * tensors[j].deviation);
       weights += confidence;
     }
     next[w] = tensors[w];
     if (!(weights > 0)) return;
     const double keep = field.wedge_confidence[w] / 2;
-    const Mat3 mixed = keep * to_matrix(tensors[w]) + (1 - keep) / weights * sum;
-    next[w] = {mixed(0, 0), mixed(0, 1), mixed(0, 2), mixed(1, 1), mixed(1, 2), mixed(2, 2)};
+    const double share = (1 - keep) / weights;
+    next[w].mean = keep * tensors[w].mean + share * sum.mean;
+    next[w].deviation = keep * tensors[w].deviation + share * sum.deviation;
   });
-  return next;
 }
 
 /// Lays guides onto the mesh, into the field. \return what they do to it; nothing without any
@@ -124,14 +144,15 @@ SmoothResult smooth_tensors(const TriMesh& mesh, TensorField tensor, const Smoot
   PrincipalField& field = result.field;
   const auto count = static_cast<std::size_t>(mesh.wedge_count());
   field.mesh_id = mesh.id;
+  std::vector<TangentTensor> tensors = project(tensor);
+  tensor.tensor = std::vector<std::array<double, 6>>();  // "= {}" would keep the memory
   field.normal = std::move(tensor.normal);
   field.t_min.resize(count);
   field.k_min.resize(count);
   field.k_max.resize(count);
 
-  const FaceNormals normals(mesh);
-  set_frames(tensor.tensor, field);
-  set_confidence(mesh, normals, field);
+  set_frames(tensors, field);
+  set_confidence(mesh, field);
   double before = 0;
   for (const double c : field.face_confidence) before += c;
 
@@ -144,14 +165,15 @@ SmoothResult smooth_tensors(const TriMesh& mesh, TensorField tensor, const Smoot
     const Index iterations = extend_cross_field(mesh, graph, options.field_stiffness, pull, field);
     result.report.set("smooth.solver_iterations", static_cast<std::int64_t>(iterations));
   }
-  std::vector<Tensor> tensors = std::move(tensor.tensor);
+  std::vector<TangentTensor> next(tensors.size());
   for (std::int64_t step = 0; step < options.iterations; ++step) {
-    tensors = smoothing_step(graph, field, tensors);
+    smoothing_step(graph, field, tensors, next);
+    tensors.swap(next);
     observer.report("smoothing curvature tensors",
                     double(step + 1) / static_cast<double>(options.iterations + 1));
   }
   set_frames(tensors, field);
-  set_confidence(mesh, normals, field);
+  set_confidence(mesh, field);
   double after = 0;
   for (const double c : field.face_confidence) after += c;
 

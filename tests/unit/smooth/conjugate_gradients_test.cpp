@@ -21,7 +21,8 @@ struct Problem {
     for (Index i = 0; i < n; ++i) {
       for (const Index j : {(i + 1) % n, (i * 7 + 3) % n}) {
         if (i == j) continue;
-        const Complex value(number(random), number(random));
+        const std::complex<float> rounded(Complex(number(random), number(random)));
+        const Complex value(rounded);
         rows[i].emplace_back(j, value);
         rows[j].emplace_back(i, std::conj(value));
         diagonal[i] += std::abs(value);
@@ -33,7 +34,7 @@ struct Problem {
     for (const auto& row : rows) {
       for (const auto& [column, value] : row) {
         columns.push_back(column);
-        values.push_back(value);
+        values.emplace_back(value);
       }
       offsets.push_back(static_cast<Index>(columns.size()));
     }
@@ -51,7 +52,7 @@ struct Problem {
 
   std::vector<Index> offsets;
   std::vector<Index> columns;
-  std::vector<Complex> values;
+  std::vector<std::complex<float>> values;
   std::vector<double> diagonal;
   std::vector<Complex> right;
 };
@@ -62,7 +63,7 @@ TEST(ConjugateGradients, SolveTheSystem) {
   for (Index i = 0; i < 60; ++i) {
     dense(i, i) = problem.diagonal[i];
     for (Index at = problem.offsets[i]; at < problem.offsets[i + 1]; ++at) {
-      dense(i, problem.columns[at]) += problem.values[at];
+      dense(i, problem.columns[at]) += Complex(problem.values[at]);
     }
   }
   ASSERT_LT((dense - dense.adjoint()).norm(), 1e-14);
