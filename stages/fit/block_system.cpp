@@ -1,5 +1,7 @@
 #include "stages/fit/block_system.h"
 
+#include <tbb/parallel_for.h>
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <limits>
@@ -41,7 +43,7 @@ void BlockSystem::add(Index i, Index j, const Mat3& block) {
 }
 
 void BlockSystem::restrict_to(const std::vector<Mat3>& projections) {
-  for (Index i = 0; i < size(); ++i) {
+  tbb::parallel_for(Index{0}, size(), [&](Index i) {
     const Mat3& own = projections[i];
     // What an unknown may not do is an equation of its own, of the same size: 0 = 0.
     const double scale = std::max(diagonal_[i].trace(), std::numeric_limits<double>::min());
@@ -50,7 +52,7 @@ void BlockSystem::restrict_to(const std::vector<Mat3>& projections) {
     for (Index at = offsets_[i]; at < offsets_[i + 1]; ++at) {
       blocks_[at] = own * blocks_[at] * projections[columns_[at]];
     }
-  }
+  });
 }
 
 std::vector<Vec3> BlockSystem::solve() const {

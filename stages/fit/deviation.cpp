@@ -75,6 +75,23 @@ class TriangleTerms {
   std::array<Vec3, 3> right_ = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
 };
 
+/// Adds the terms of triangles in their order; they are made at the same time, a few at once.
+/// \param make  fills in the terms of triangle number i, and returns its corners
+template <class Make>
+void add_in_turn(BlockSystem& system, std::size_t count, const Make& make) {
+  constexpr std::size_t kAtOnce = 2048;
+  std::vector<TriangleTerms> terms(std::min(count, kAtOnce));
+  std::vector<std::array<Index, 3>> corners(terms.size());
+  for (std::size_t first = 0; first < count; first += kAtOnce) {
+    const std::size_t some = std::min(kAtOnce, count - first);
+    tbb::parallel_for(std::size_t{0}, some, [&](std::size_t i) {
+      terms[i] = {};
+      corners[i] = make(first + i, terms[i]);
+    });
+    for (std::size_t i = 0; i < some; ++i) terms[i].add_to(system, corners[i]);
+  }
+}
+
 }  // namespace
 
 Deviation::Deviation(const TriMesh& mesh, const SurfaceDistance& surface,
@@ -202,20 +219,18 @@ double Deviation::mean() const {
 
 void Deviation::add_to(BlockSystem& system) const {
   // The six samples of a triangle concern the same vertices: their sum is looked up once.
-  for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    TriangleTerms terms;
+  add_in_turn(system, triangles_.size(), [&](std::size_t t, TriangleTerms& terms) {
     for (std::size_t i = 0; i < kRule.size(); ++i) {
       const std::size_t s = t * kRule.size() + i;
       terms.add(from_result_[s], kRule[i].at, slope_of(from_result_[s]) * weight(s));
     }
-    terms.add_to(system, triangles_[t]);
-  }
-  for (std::size_t s = 0; s < from_surface_.size(); ++s) {
+    return triangles_[t];
+  });
+  add_in_turn(system, from_surface_.size(), [&](std::size_t s, TriangleTerms& terms) {
     const auto& [gap, corners, at] = from_surface_[s];
-    TriangleTerms terms;
     terms.add(gap, at, slope_of(gap) * areas_[s]);
-    terms.add_to(system, corners);
-  }
+    return corners;
+  });
 }
 
 }  // namespace strake::fitting

@@ -1,5 +1,7 @@
 #include "stages/fit/face_guard.h"
 
+#include <tbb/parallel_for.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -49,7 +51,7 @@ FaceGuard::Form FaceGuard::form(const VertexPlaces& places, Index face) const {
 
 void FaceGuard::set_start(const VertexPlaces& places) {
   start_.resize(static_cast<std::size_t>(mesh_.face_count()));
-  for (Index f = 0; f < mesh_.face_count(); ++f) start_[f] = form(places, f);
+  tbb::parallel_for(Index{0}, mesh_.face_count(), [&](Index f) { start_[f] = form(places, f); });
 }
 
 bool FaceGuard::is_spoilt(const VertexPlaces& places, Index face) const {
@@ -60,9 +62,12 @@ bool FaceGuard::is_spoilt(const VertexPlaces& places, Index face) const {
 }
 
 std::vector<std::uint8_t> FaceGuard::spoilt(const VertexPlaces& places) const {
+  std::vector<std::uint8_t> is_spoilt_face(start_.size());
+  tbb::parallel_for(Index{0}, mesh_.face_count(),
+                    [&](Index f) { is_spoilt_face[f] = is_spoilt(places, f) ? 1 : 0; });
   std::vector<std::uint8_t> spoilt(mesh_.positions.size(), 0);
   for (Index f = 0; f < mesh_.face_count(); ++f) {
-    if (!is_spoilt(places, f)) continue;
+    if (is_spoilt_face[f] == 0) continue;
     for (const Index v : mesh_.face(f)) spoilt[v] = 1;
   }
   return spoilt;

@@ -117,10 +117,7 @@ class Fit {
   }
 
   void measure() {
-    triangles_.clear();
-    for (Index f = 0; f < quads_.mesh.face_count(); ++f) {
-      triangulate_face(places_.positions(), quads_.mesh.face(f), triangles_);
-    }
+    triangles_ = triangulate_faces(quads_.mesh, places_.positions()).corners;
     deviation_.measure(places_.positions(), triangles_);
   }
 

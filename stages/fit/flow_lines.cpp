@@ -1,5 +1,7 @@
 #include "stages/fit/flow_lines.h"
 
+#include <tbb/parallel_for.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -192,8 +194,9 @@ void FlowLines::for_terms(const VertexPlaces& places, const PrincipalField* fiel
     use(term);
   }
   if (field == nullptr) return;
-  std::vector<Vec3> arms;
-  for (Index v = 0; v < mesh_.vertex_count(); ++v) arms.push_back(places.cross_arm(*field, v));
+  std::vector<Vec3> arms(p.size());
+  tbb::parallel_for(Index{0}, mesh_.vertex_count(),
+                    [&](Index v) { arms[v] = places.cross_arm(*field, v); });
   for (const auto& edge : edges_) {
     double bound = 1;
     for (int i = 0; i < 2; ++i) {

@@ -29,10 +29,10 @@ VertexPlaces::VertexPlaces(const TriMesh& mesh, const SurfaceDistance& surface,
       foot_face_(quads.provenance.face),
       foot_(quads.provenance.barycentric) {
   for (Vec3& p : positions_) p -= mesh.origin;
-  for (Index v = 0; v < quads.mesh.vertex_count(); ++v) {
+  tbb::parallel_for(Index{0}, quads.mesh.vertex_count(), [&](Index v) {
     place_on_line(v);
     normals_[v] = normal_at_foot(v);
-  }
+  });
 }
 
 void VertexPlaces::place_on_line(Index v) {

@@ -50,7 +50,7 @@ class BoxTree {
   /// Children are halves, and of each node on the way down one waits.
   static constexpr int kMostLevels = std::numeric_limits<Index>::digits + 1;
 
-  void build(Index begin, Index end);
+  void build(Index at, Index begin, Index end);
 
   std::vector<Box> boxes_;
   std::vector<Index> order_;

@@ -164,14 +164,19 @@ std::vector<std::array<Index, 2>> find_crossing_faces(const std::vector<Vec3>& p
 std::vector<std::array<Index, 2>> find_crossing_faces(
     const std::vector<Vec3>& positions, const FaceTriangles& triangles,
     const std::vector<std::uint8_t>& wanted, const std::vector<std::array<Index, 2>>& known) {
+  std::vector<std::uint8_t> is_seen(triangles.corners.size());
+  const auto shape_of = [&](std::size_t t) -> Triangle {
+    const auto& [a, b, c] = triangles.corners[t];
+    return {positions[a], positions[b], positions[c]};
+  };
+  tbb::parallel_for(std::size_t{0}, is_seen.size(),
+                    [&](std::size_t t) { is_seen[t] = has_area(shape_of(t)) ? 1 : 0; });
   std::vector<Triangle> shapes;
   std::vector<Index> faces;
   std::vector<BoxTree::Box> boxes;
   for (std::size_t t = 0; t < triangles.corners.size(); ++t) {
-    const auto& [a, b, c] = triangles.corners[t];
-    const Triangle shape = {positions[a], positions[b], positions[c]};
-    if (!has_area(shape)) continue;
-    shapes.push_back(shape);
+    if (is_seen[t] == 0) continue;
+    const Triangle& shape = shapes.emplace_back(shape_of(t));
     faces.push_back(triangles.face[t]);
     boxes.emplace_back(shape[0]);
     boxes.back().extend(shape[1]).extend(shape[2]);

@@ -1,5 +1,8 @@
 #include "common/geometry/poly_topology/face_shape.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -138,15 +141,21 @@ FaceTriangles triangulate_faces(const PolyMesh& mesh) {
 
 FaceTriangles triangulate_faces(const PolyMesh& mesh, std::span<const Vec3> positions) {
   FaceTriangles result;
-  const std::size_t faces = static_cast<std::size_t>(mesh.face_count());
-  const std::size_t expected =
-      mesh.corners.size() > 2 * faces ? mesh.corners.size() - 2 * faces : 0;
-  result.corners.reserve(expected);
-  result.face.reserve(expected);
+  std::vector<std::size_t> first = {0};  // of a face, and the end
   for (Index f = 0; f < mesh.face_count(); ++f) {
-    triangulate_face(positions, mesh.face(f), result.corners);
-    result.face.resize(result.corners.size(), f);
+    const std::size_t sides = mesh.face(f).size();
+    first.push_back(first.back() + (sides > 2 ? sides - 2 : 0));
+    result.face.resize(first.back(), f);
   }
+  result.corners.resize(first.back());
+  tbb::parallel_for(tbb::blocked_range<Index>(0, mesh.face_count()), [&](const auto& faces) {
+    std::vector<std::array<Index, 3>> own;
+    for (Index f = faces.begin(); f < faces.end(); ++f) {
+      own.clear();
+      triangulate_face(positions, mesh.face(f), own);
+      std::ranges::copy(own, result.corners.begin() + static_cast<std::ptrdiff_t>(first[f]));
+    }
+  });
   return result;
 }
 
