@@ -79,7 +79,9 @@ Index conjugate_gradients(const std::vector<Value>& right, const SolverOptions& 
   using conjugate_gradients_detail::sum_over;
   using Sums = std::array<double, 2>;
   const auto n = static_cast<Index>(right.size());
-  auto& [residual, direction, product] = vectors;
+  std::vector<Value>& residual = vectors.residual;
+  std::vector<Value>& direction = vectors.direction;
+  std::vector<Value>& product = vectors.product;
   for (auto* vector : {&residual, &direction, &product}) vector->resize(right.size());
 
   const auto [right_norm2, first_norm2] = sum_over(n, [&](Index i) -> Sums {

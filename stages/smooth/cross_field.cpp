@@ -111,7 +111,8 @@ CrossSystem cross_system(const TriMesh& mesh, const WedgeGraph& graph, double st
 /// the last solution and the principal direction; not at all where `solution` is that direction.
 Index solve_reweighted(CrossSystem& system, double tolerance, std::vector<Complex>& solution,
                        Workspace& space) {
-  auto& [right, holds, vectors] = space;
+  std::vector<Complex>& right = space.right;
+  std::vector<double>& holds = space.holds;
   right.resize(solution.size());
   holds.resize(solution.size());
   tbb::parallel_for(Index{0}, static_cast<Index>(solution.size()), [&](Index w) {
@@ -130,7 +131,7 @@ Index solve_reweighted(CrossSystem& system, double tolerance, std::vector<Comple
   }
   const double share = right_norm2 > 0 ? std::sqrt(hold_norm2 / right_norm2) : 1;
   const SolverOptions options = {.tolerance = tolerance * std::clamp(share, kLeastShare, 1.0)};
-  return solve(system.matrix, right, options, solution, vectors);
+  return solve(system.matrix, right, options, solution, space.solver);
 }
 
 /// [W] the cross of every wedge. \param iterations  set to the steps that solving took
