@@ -30,8 +30,9 @@ constexpr double kLeftForWorst = 0.01;
 /// Share that dividing may add to what lines give, as each vertex costs a quad and makes others
 /// irregular; more only where the count would be missed otherwise.
 constexpr double kMostDivided = 0.01;
-/// Share of the way to a density that is enough, and rounds that may be spent on it.
-constexpr double kDensityReached = 0.9;
+/// Share of the way to a density that is enough, and rounds that may be spent on it. Of the rounds
+/// the nearest counts, before or beyond.
+constexpr double kDensityReached = 1;
 constexpr int kMostDensityRounds = 5;
 /// Share of that way by which the result may miss it before the count is looked for once more, and
 /// times it is.
