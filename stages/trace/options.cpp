@@ -40,6 +40,13 @@ OptionList TraceOptions::declare() {
        .help = "A line stops where its neighbour is nearer than this share of the wanted distance.",
        .min = 0.1,
        .max = 1},
+      {.name = "line-flow",
+       .target = &line_flow,
+       .unit = "",
+       .help = "Cells over which distances follow lines that part or converge, so that fewer end; "
+               "0: not at all.",
+       .min = 0,
+       .max = 100},
       {.name = "seed",
        .target = &seed,
        .unit = "",

@@ -2,17 +2,17 @@
 
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <utility>
 
-#include "common/geometry/frames.h"
 #include "common/geometry/mesh_measures.h"
+#include "stages/trace/line_flow.h"
 
 namespace strake {
 namespace {
@@ -37,44 +37,6 @@ double normal_curvature(const PrincipalField& field, Index w, const Vec3& d) {
   const double c = field.t_min[w].dot(d);
   const double c2 = std::min(1.0, c * c);
   return std::abs(field.k_min[w] * c2 + field.k_max[w] * (1 - c2));
-}
-
-/// Key of the arm of wedge w's cross that is closer to a direction.
-Index key_of_arm(const PrincipalField& field, Index w, const Vec3& direction) {
-  const Vec3& n = field.normal[w];
-  const Vec3 flat = direction - n * n.dot(direction);
-  const double c = field.cross[w].dot(flat);
-  return c * c >= 0.5 * flat.squaredNorm() ? 2 * w : 2 * w + 1;
-}
-
-constexpr std::uint8_t kNoBond = 2;
-
-/// [3F] 1 where the crosses at the ends of a half-edge are turned against each other, 0 where they
-/// are not, kNoBond for the second half-edge of an edge within a smooth piece of surface.
-std::vector<std::uint8_t> turns_along(const TriMesh& mesh, const PrincipalField& field) {
-  std::vector<std::uint8_t> turned(mesh.halfedge_count(), kNoBond);
-  tbb::parallel_for(Index{0}, mesh.halfedge_count(), [&](Index h) {
-    if (mesh.twin[h] != kNone && mesh.twin[h] < h && mesh.is_feature[h] == 0) return;
-    const Index v = mesh.wedge_of(h);
-    const Index w = mesh.wedge_of(TriMesh::next(h));
-    const Vec3 arm = rotate_between(field.normal[v], field.normal[w], field.cross[v]);
-    turned[h] = std::abs(arm.dot(field.cross[w])) >= M_SQRT1_2 ? 0 : 1;
-  });
-  return turned;
-}
-
-/// Calls use(wedge, other wedge, 1 where their crosses are turned, half-edge) for all edges within
-/// a smooth piece of surface, once in each direction.
-/// \param turned  [3F] as from `turns_along`
-template <class Use>
-void for_each_bond(const TriMesh& mesh, const std::vector<std::uint8_t>& turned, const Use& use) {
-  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
-    if (turned[h] == kNoBond) continue;
-    const Index v = mesh.wedge_of(h);
-    const Index w = mesh.wedge_of(TriMesh::next(h));
-    use(v, w, turned[h], h);
-    use(w, v, turned[h], h);
-  }
 }
 
 /// Keys in the order of their values. They wait by intervals, and only those of the first one are
@@ -148,7 +110,7 @@ double predicted_vertices(const std::vector<double>& areas, const Spacing& spaci
 }
 
 SpacingModel::SpacingModel(const TriMesh& mesh, const PrincipalField& field, const SizeField* size)
-    : mesh_(mesh), field_(field), size_(size), areas_(wedge_areas(mesh)) {
+    : mesh_(mesh), field_(field), size_(size), areas_(wedge_areas(mesh)), bonds_(mesh, field) {
   const Index n = mesh.wedge_count();
   curvature_along_.resize(n);
   curvature_across_.resize(n);
@@ -156,39 +118,14 @@ SpacingModel::SpacingModel(const TriMesh& mesh, const PrincipalField& field, con
     curvature_along_[w] = normal_curvature(field, w, field.cross[w]);
     curvature_across_[w] = normal_curvature(field, w, field.normal[w].cross(field.cross[w]));
   });
-  collect_bonds();
-}
-
-void SpacingModel::collect_bonds() {
-  offsets_.assign(static_cast<std::size_t>(mesh_.wedge_count()) + 1, 0);
-  const std::vector<std::uint8_t> turned = turns_along(mesh_, field_);
-  for_each_bond(mesh_, turned, [&](Index w, Index, Index, Index) { ++offsets_[w + 1]; });
-  for (std::size_t w = 1; w < offsets_.size(); ++w) offsets_[w] += offsets_[w - 1];
-  bonded_.resize(offsets_.back());
-  distances_.resize(offsets_.back());
-  std::vector<Index> fill(offsets_.begin(), offsets_.end() - 1);
-  for_each_bond(mesh_, turned, [&](Index w, Index other, Index turn, Index h) {
-    distances_[fill[w]] = (mesh_.positions[mesh_.to(h)] - mesh_.positions[mesh_.from(h)]).norm();
-    bonded_[fill[w]++] = 2 * other + turn;
-  });
-  for (Index h = 0; h < mesh_.halfedge_count(); ++h) {
-    if (mesh_.is_feature[h] == 0) continue;
-    const Vec3 edge = mesh_.positions[mesh_.to(h)] - mesh_.positions[mesh_.from(h)];
-    const Index here = key_of_arm(field_, mesh_.wedge_of(h), edge);
-    const Index there = key_of_arm(field_, mesh_.wedge_of(TriMesh::next(mesh_.twin[h])), edge);
-    ties_.emplace_back(here, there);
-    ties_.emplace_back(there, here);
-  }
-  std::sort(ties_.begin(), ties_.end());
 }
 
 template <class Use>
 void SpacingModel::for_bounded(Index key, const Use& use) const {
-  for (Index at = offsets_[key / 2]; at < offsets_[key / 2 + 1]; ++at) {
-    use(bonded_[at] ^ (key & 1), distances_[at]);
+  for (Index at = bonds_.first(key / 2); at < bonds_.first(key / 2 + 1); ++at) {
+    use(bonds_.bonded(at, key), bonds_.length(at, key / 2));
   }
-  auto tie = std::lower_bound(ties_.begin(), ties_.end(), std::pair{key, Index{0}});
-  for (; tie != ties_.end() && tie->first == key; ++tie) use(tie->second, 0.0);
+  bonds_.for_each_tied(key, [&](Index other) { use(other, 0.0); });
 }
 
 void SpacingModel::bound_along(const std::vector<Index>& halfedges, double length) {
@@ -197,7 +134,7 @@ void SpacingModel::bound_along(const std::vector<Index>& halfedges, double lengt
     for (const Index side : {h, mesh_.twin[h]}) {
       if (side == kNone) continue;
       for (const Index corner : {side, TriMesh::next(side)}) {
-        bounds_.emplace_back(key_of_arm(field_, mesh_.wedge_of(corner), edge), length);
+        bounds_.emplace_back(ArmBonds::key_along(field_, mesh_.wedge_of(corner), edge), length);
       }
     }
   }
@@ -227,12 +164,16 @@ Spacing SpacingModel::ungraded(double tolerance, const SpacingLimits& limits) co
     spacing.along[w] = std::min(a, limits.aspect_ratio * b);
     spacing.across[w] = std::min(b, limits.aspect_ratio * a);
   });
+  apply_bounds(limits, spacing);
+  return spacing;
+}
+
+void SpacingModel::apply_bounds(const SpacingLimits& limits, Spacing& spacing) const {
   for (const auto& [key, length] : bounds_) {
     double& value = key % 2 == 0 ? spacing.along[key / 2] : spacing.across[key / 2];
     const double bound = std::max(1.0, limits.scale) * length;  // gives way to a wanted count
     value = std::min(value, std::max(limits.smallest, bound));
   }
-  return spacing;
 }
 
 /// Bounds the slope of both spacings by a wave from the smallest values outwards.
@@ -248,9 +189,7 @@ void SpacingModel::grade(const SpacingLimits& limits, Spacing& spacing) const {
     aspect[w] = std::max(kGradedAspect, large / small);
   }
   const auto [least, largest] = std::ranges::minmax(value);
-  const double mean_distance = std::accumulate(distances_.begin(), distances_.end(), 0.0) /
-                               static_cast<double>(std::max<std::size_t>(1, distances_.size()));
-  KeyQueue queue(least, largest, limits.gradation * mean_distance);
+  KeyQueue queue(least, largest, limits.gradation * bonds_.mean_length());
   // Start from the values that bound another now; the rest follows in order of size.
   std::vector<std::uint8_t> bounds(keys);
   tbb::parallel_for(Index{0}, keys, [&](Index key) {
@@ -284,6 +223,16 @@ Spacing SpacingModel::for_tolerance(double tolerance, const SpacingLimits& limit
   Spacing spacing = ungraded(tolerance, limits);
   grade(limits, spacing);
   return spacing;
+}
+
+void SpacingModel::follow_lines(double cells, const SpacingLimits& limits, Spacing& spacing) const {
+  strake::follow_lines(mesh_, field_, bonds_, cells, spacing);
+  for (auto* distances : {&spacing.along, &spacing.across}) {
+    for (double& d : *distances) {
+      d = std::max(limits.smallest, std::min(d, limits.scale * limits.largest));
+    }
+  }
+  apply_bounds(limits, spacing);
 }
 
 double SpacingModel::tolerance_for_count(double count, const SpacingLimits& limits) const {

@@ -4,6 +4,7 @@
 
 #include "common/core/fields.h"
 #include "common/core/tri_mesh.h"
+#include "stages/trace/arm_bonds.h"
 
 namespace strake {
 
@@ -49,15 +50,18 @@ class SpacingModel {
   /// The tolerance whose graded spacings predict `count` vertices, within 2 % where there is one.
   [[nodiscard]] double tolerance_for_count(double count, const SpacingLimits& limits) const;
 
+  /// Brings graded spacings nearer to those that lines keep by themselves (see line_flow.h).
+  void follow_lines(double cells, const SpacingLimits& limits, Spacing& spacing) const;
+
   [[nodiscard]] const std::vector<double>& areas() const { return areas_; }
 
  private:
-  void collect_bonds();
   /// Calls use(other key, distance) for all values that the one of a key bounds.
   template <class Use>
   void for_bounded(Index key, const Use& use) const;
   [[nodiscard]] Spacing ungraded(double tolerance, const SpacingLimits& limits) const;
   void grade(const SpacingLimits& limits, Spacing& spacing) const;
+  void apply_bounds(const SpacingLimits& limits, Spacing& spacing) const;
 
   const TriMesh& mesh_;
   const PrincipalField& field_;
@@ -67,14 +71,7 @@ class SpacingModel {
   std::vector<double> areas_;                     ///< [W]
   std::vector<double> curvature_along_;           ///< [W] |normal curvature| along the cross
   std::vector<double> curvature_across_;          ///< [W]
-  /// Keys are 2 w for the distance along the cross of wedge w and 2 w + 1 for the one across it.
-  /// The arms of neighbouring crosses are matched by direction.
-  std::vector<Index> offsets_;     ///< [W + 1] into the next two
-  std::vector<Index> bonded_;      ///< 2 w, or 2 w + 1 where the cross of wedge w is turned
-  std::vector<double> distances_;  ///< on the surface
-  /// Keys of distances along a feature line, which are the same on its two sides, so that lines can
-  /// cross it; ascending.
-  std::vector<std::pair<Index, Index>> ties_;
+  ArmBonds bonds_;
 };
 
 }  // namespace strake

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "common/core/error.h"
 #include "common/geometry/density.h"
@@ -94,7 +95,9 @@ std::pair<Spacing, double> choose_spacing(const TriMesh& mesh, const PrincipalFi
     family_tolerance = model.tolerance_for_count(count, limits);
   }
   limits.scale = options.spacing_scale;
-  return {model.for_tolerance(family_tolerance, limits), family_tolerance / kShareOfFamily};
+  Spacing spacing = model.for_tolerance(family_tolerance, limits);
+  model.follow_lines(options.line_flow, limits, spacing);
+  return {std::move(spacing), family_tolerance / kShareOfFamily};
 }
 
 /// Seeds on guide lines, from the middle of each: lines along them come first. All places are
