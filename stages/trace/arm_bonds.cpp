@@ -22,9 +22,8 @@ ArmBonds::ArmBonds(const TriMesh& mesh, const PrincipalField& field) : mesh_(mes
   for (std::size_t w = 1; w < offsets_.size(); ++w) offsets_[w] += offsets_[w - 1];
   bonded_.resize(offsets_.back());
   std::vector<Index> fill(offsets_.begin(), offsets_.end() - 1);
-  for_each_bond([&](Index w, Index other, Index h) {
-    bonded_[fill[w]++] = 2 * other + turned_[h];
-  });
+  for_each_bond(
+      [&](Index w, Index other, Index h) { bonded_[fill[w]++] = 2 * other + turned_[h]; });
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
     if (mesh.is_feature[h] == 0) continue;
     const Vec3 edge = mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)];
@@ -77,7 +76,8 @@ std::optional<std::array<Index, 3>> ArmBonds::keys_in(Index face, Index parity) 
   const std::array<Index, 3>& w = mesh_.face_wedges[face];
   const auto turn = [&](Index corner) { return Index{turned_[standing_for(3 * face + corner)]}; };
   if ((turn(0) ^ turn(1) ^ turn(2)) != 0) return std::nullopt;
-  return std::array{2 * w[0] + parity, 2 * w[1] + (parity ^ turn(0)), 2 * w[2] + (parity ^ turn(2))};
+  return std::array{2 * w[0] + parity, 2 * w[1] + (parity ^ turn(0)),
+                    2 * w[2] + (parity ^ turn(2))};
 }
 
 }  // namespace strake

@@ -17,7 +17,7 @@ namespace {
 /// Change of log s from cell to cell that is followed.
 constexpr double kFastest = 0.2;
 constexpr double kMostChange = 0.2231435513142097;  ///< log 1.25
-constexpr double kAccuracy = 0.1;  ///< of the solution; more changes no figure
+constexpr double kAccuracy = 0.1;                   ///< of the solution; more changes no figure
 /// Faces whose terms are made at a time.
 constexpr Index kFacesAtATime = 1 << 15;
 
@@ -62,8 +62,9 @@ class LineFlow {
  private:
   void weigh_changes() {
     constexpr double kLeast = std::numeric_limits<double>::min();
+    const double unit = mesh_.diagonal * mesh_.diagonal;  // single precision is to hold all units
     for (const double area : wedge_areas(mesh_)) {
-      diagonal_.insert(diagonal_.end(), 2, std::max(area, kLeast));
+      diagonal_.insert(diagonal_.end(), 2, std::max(area / unit, kLeast));
     }
   }
 
@@ -88,19 +89,18 @@ class LineFlow {
     const Vec3 normal = normals_[face];
     std::array<Vec3, 3> arm;       // of the corners' crosses, in the face
     std::array<Vec3, 3> gradient;  // of the corners' hat functions
-    std::array<std::array<double, 2>, 3> log_distance;
-    double log_cell = 0;
+    std::array<std::array<double, 2>, 3> distance;
+    double cell = 0;
     for (Index i = 0; i < 3; ++i) {
       const Index w = mesh_.face_wedges[face][i];
       arm[i] = rotate_between(field_.normal[w], normal, field_.cross[w]);
       const Index across = TriMesh::next(3 * face + i);
       const Vec3 edge = mesh_.positions[mesh_.to(across)] - mesh_.positions[mesh_.from(across)];
       gradient[i] = normal.cross(edge) / double_area;
-      log_distance[i] = {std::log(spacing.along[w]), std::log(spacing.across[w])};
-      log_cell += (log_distance[i][0] + log_distance[i][1]) / 6;
+      distance[i] = {spacing.along[w], spacing.across[w]};
+      cell += std::sqrt(spacing.along[w] * spacing.across[w]) / 3;
     }
-    const double cell = std::exp(log_cell);
-    const double root = cells_ * cell * std::sqrt(double_area / 2);
+    const double root = cells_ * cell * std::sqrt(double_area / 2) / mesh_.diagonal;
     std::array<FlowTerm, 2> terms;
     for (const Index parity : {0, 1}) {
       const std::optional<std::array<Index, 3>> keys = bonds_.keys_in(face, parity);
@@ -118,7 +118,8 @@ class LineFlow {
       for (std::size_t i = 0; i < 3; ++i) {
         const double slope = gradient[i].dot(mean);
         divergence += gradient[i].dot(along[i]);
-        change += slope * log_distance[i][term.key[i] % 2];
+        // Of ratios, which have no unit; the slopes' sum is 0.
+        change += slope * std::log(distance[i][term.key[i] % 2] / distance[0][parity]);
         term.slope[i] = root * slope;
       }
       term.missing = root * std::clamp(divergence - change, -kFastest / cell, kFastest / cell);

@@ -37,7 +37,8 @@ OptionList TraceOptions::declare() {
       {.name = "stop-fraction",
        .target = &stop_fraction,
        .unit = "",
-       .help = "A line stops where its neighbour is nearer than this share of the wanted distance.",
+       .help = "A line stops where its neighbour is nearer than this share of the wanted distance; "
+               "0.45, with a density 0.6.",
        .min = 0.1,
        .max = 1},
       {.name = "line-flow",

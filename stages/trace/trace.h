@@ -16,7 +16,8 @@ struct TraceOptions {
   double spacing_scale = 1;              ///< factor on all spacings, for corrections of the count
   std::optional<Length> max_spacing;     ///< cap on the distance between lines; default 5 %, or
                                          ///< three mean cells where a count is wanted
-  double stop_fraction = 0.45;           ///< lines stop at this share of the wanted distance
+  /// Lines stop at this share of the wanted distance; default: 0.45, with a density 0.6.
+  std::optional<double> stop_fraction;
   double line_flow = 5;   ///< cells over which distances follow lines that part or converge
   std::int64_t seed = 1;  ///< of the random generator that places the first seeds
 

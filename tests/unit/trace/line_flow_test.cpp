@@ -78,8 +78,8 @@ TEST(LineFlow, ChangesAcrossLinesStay) {
 /// Rays from a point outside of the plane.
 struct Rays {
   explicit Rays(double distance)
-      : source(-distance, 0, 0), field(field_along(mesh, [&](const Vec3& p) { return p - source; })) {
-  }
+      : source(-distance, 0, 0),
+        field(field_along(mesh, [&](const Vec3& p) { return p - source; })) {}
 
   [[nodiscard]] double radius(const Vec3& p) const { return (p - source).norm(); }
 
