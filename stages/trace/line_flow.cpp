@@ -18,6 +18,8 @@ namespace {
 constexpr double kFastest = 0.2;
 constexpr double kMostChange = 0.2231435513142097;  ///< log 1.25
 constexpr double kAccuracy = 0.1;                   ///< of the solution; more changes no figure
+/// Of a face's terms, over its area: beyond, single precision would not hold the system positive.
+constexpr double kStiffest = 1e5;
 /// Faces whose terms are made at a time.
 constexpr Index kFacesAtATime = 1 << 15;
 
@@ -85,22 +87,25 @@ class LineFlow {
   [[nodiscard]] std::array<FlowTerm, 2> terms_of(const Spacing& spacing, Index face) const {
     const Vec3 cross = face_cross(mesh_, face);
     const double double_area = cross.norm();
-    if (!(double_area > 0)) return {};
+    if (!has_own_normal(mesh_, face)) return {};
     const Vec3 normal = normals_[face];
     std::array<Vec3, 3> arm;       // of the corners' crosses, in the face
     std::array<Vec3, 3> gradient;  // of the corners' hat functions
     std::array<std::array<double, 2>, 3> distance;
     double cell = 0;
+    double steepest = 0;
     for (Index i = 0; i < 3; ++i) {
       const Index w = mesh_.face_wedges[face][i];
       arm[i] = rotate_between(field_.normal[w], normal, field_.cross[w]);
       const Index across = TriMesh::next(3 * face + i);
       const Vec3 edge = mesh_.positions[mesh_.to(across)] - mesh_.positions[mesh_.from(across)];
       gradient[i] = normal.cross(edge) / double_area;
+      steepest = std::max(steepest, gradient[i].norm());
       distance[i] = {spacing.along[w], spacing.across[w]};
       cell += std::sqrt(spacing.along[w] * spacing.across[w]) / 3;
     }
-    const double root = cells_ * cell * std::sqrt(double_area / 2) / mesh_.diagonal;
+    const double length = std::min(cells_ * cell, std::sqrt(kStiffest) / steepest);
+    const double root = length * std::sqrt(double_area / 2) / mesh_.diagonal;
     std::array<FlowTerm, 2> terms;
     for (const Index parity : {0, 1}) {
       const std::optional<std::array<Index, 3>> keys = bonds_.keys_in(face, parity);
