@@ -226,10 +226,12 @@ Spacing SpacingModel::for_tolerance(double tolerance, const SpacingLimits& limit
 }
 
 void SpacingModel::follow_lines(double cells, const SpacingLimits& limits, Spacing& spacing) const {
+  const double count = predicted_vertices(areas_, spacing);
   strake::follow_lines(mesh_, field_, bonds_, cells, spacing);
+  const double factor = std::sqrt(predicted_vertices(areas_, spacing) / count);
   for (auto* distances : {&spacing.along, &spacing.across}) {
     for (double& d : *distances) {
-      d = std::max(limits.smallest, std::min(d, limits.scale * limits.largest));
+      d = std::max(limits.smallest, std::min(factor * d, limits.scale * limits.largest));
     }
   }
   apply_bounds(limits, spacing);

@@ -50,7 +50,8 @@ class SpacingModel {
   /// The tolerance whose graded spacings predict `count` vertices, within 2 % where there is one.
   [[nodiscard]] double tolerance_for_count(double count, const SpacingLimits& limits) const;
 
-  /// Brings graded spacings nearer to those that lines keep by themselves (see line_flow.h).
+  /// Brings graded spacings nearer to those that lines keep by themselves (see line_flow.h), for as
+  /// many vertices.
   void follow_lines(double cells, const SpacingLimits& limits, Spacing& spacing) const;
 
   [[nodiscard]] const std::vector<double>& areas() const { return areas_; }

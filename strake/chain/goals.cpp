@@ -36,7 +36,7 @@ constexpr double kDensityReached = 1;
 constexpr int kMostDensityRounds = 5;
 /// Share of that way by which the result may miss it before the count is looked for once more, and
 /// times it is.
-constexpr double kDensityMissed = 0.2;
+constexpr double kDensityMissed = 0.1;
 constexpr int kMostDensitySearches = 3;
 /// Times that cells are divided and vertices fitted again on the way to a tolerance. Fitting makes
 /// many cells good enough that would be divided without.
