@@ -56,9 +56,9 @@ class ArmBonds {
 
   const TriMesh& mesh_;
   std::vector<char> turned_;    ///< [3F] whether the crosses at the ends of a half-edge are turned
-                                ///< against each other; of one half-edge of each edge, see above
+                                ///< against each other; filled for those that stand for an edge
   std::vector<Index> offsets_;  ///< [W + 1] into the next
-  std::vector<Index> bonded_;   ///< 2 w, or 2 w + 1 where the cross of wedge w is turned
+  std::vector<Index> bonded_;   ///< key of the other end for the first key of the wedge
   std::vector<std::pair<Index, Index>> ties_;  ///< ascending
 };
 
