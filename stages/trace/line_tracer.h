@@ -23,7 +23,9 @@ struct TracedLine {
 };
 
 struct TracerSettings {
-  double stop_fraction = 0.5;    ///< of the wanted distance, below which a line stops
+  /// Of the wanted distance, below which a line stops: the less, the fewer lines end, and the less
+  /// even their distances are.
+  double stop_fraction = 0.45;
   double seed_fraction = 0.8;    ///< of the wanted distance, below which a seed is refused
   double gap_fraction = 0.95;    ///< likewise, for seeds that fill gaps
   double cover_fraction = 0.9;   ///< of the wanted distance, within which a point counts as covered

@@ -21,8 +21,6 @@ constexpr Length kDefaultTolerance = percent(0.1);
 /// The errors of the two families of lines add up in the middle of a cell.
 constexpr double kShareOfFamily = 0.5;
 constexpr Length kDefaultMaxSpacing = percent(5);  ///< [MK04] section 3.2
-/// Lines that stop later end less often, those that stop sooner keep their distances better.
-constexpr double kStopFraction = 0.45;
 constexpr double kStopFractionOfDensity = 0.6;
 constexpr double kLargestCell = 3;         ///< in mean cell lengths, where a count is wanted
 constexpr double kSmallestSpacing = 1e-4;  ///< share of the diagonal
@@ -99,8 +97,9 @@ std::pair<Spacing, double> choose_spacing(const TriMesh& mesh, const PrincipalFi
   }
   limits.scale = options.spacing_scale;
   Spacing spacing = model.for_tolerance(family_tolerance, limits);
-  // A density says how far apart lines are to be, whether they end or not.
-  if (sizes.density == nullptr) model.follow_lines(options.line_flow, limits, spacing);
+  // What a user says of distances or of lines counts more than where lines end.
+  const bool is_free = sizes.density == nullptr && field.guides.line_count() == 0;
+  if (is_free) model.follow_lines(options.line_flow, limits, spacing);
   return {std::move(spacing), family_tolerance / kShareOfFamily};
 }
 
@@ -143,7 +142,7 @@ TraceResult trace_lines(const TriMesh& mesh, const PrincipalField& field,
   const TraceDomain domain{mesh, field, spacing, FaceNormals(mesh)};
   TracerSettings settings;
   settings.stop_fraction = options.stop_fraction.value_or(
-      sizes.density != nullptr ? kStopFractionOfDensity : kStopFraction);
+      sizes.density != nullptr ? kStopFractionOfDensity : settings.stop_fraction);
   const std::vector<BarrierLine> barriers = barrier_lines(domain);
   const std::vector<std::uint8_t> flags = barrier_flags(mesh, barriers);
   LineCollector collector(domain, flags, settings, observer);

@@ -80,11 +80,10 @@ TEST(Guides, TurnTheFieldOfAPlane) {
     }
   }
   EXPECT_LT(worst, 1 * kDegree);
-  const double spacing = std::sqrt(4.0 / 600);
   TraceOptions options;
   options.vertices = 600;
-  options.max_spacing = Length::parse(std::to_string(spacing));  // else a plane gets larger cells
   const QuadMesh quads = support::mesh(plane, support::trace(plane, options));
+  const double spacing = std::sqrt(4.0 / 600);
   const auto beside = [&](const Vec3& p) -> Beside {
     return {p.cross(along).norm(), std::clamp(p.dot(along), -0.6, 0.6)};
   };
