@@ -28,7 +28,7 @@ set(CPACK_COMPONENT_PROGRAMS_DESCRIPTION "Programs that remesh surfaces with qua
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libstrake-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    "libeigen3-dev, libembree-dev, libfmt-dev, libopenmesh-dev, libtbb-dev")
+    "libeigen3-dev, libembree-dev, libfmt-dev, libgeos-dev, libopenmesh-dev, libtbb-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Library and headers of the remesher strake.")
 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-strake)

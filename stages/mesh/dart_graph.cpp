@@ -63,6 +63,12 @@ void DartGraph::remove_edge(Index dart) {
   for (const Index d : {dart, other}) next_[d] = prev_[d] = kNone;
 }
 
+void DartGraph::drop_edges(const std::vector<Index>& darts) {
+  for (const Index dart : darts) {
+    for (const Index d : {dart, opposite(dart)}) next_[d] = prev_[d] = kNone;
+  }
+}
+
 void DartGraph::dissolve_node(Index dart) {
   const Index first = prev_[dart];
   const Index other = opposite(dart);  // comes into the node

@@ -10,9 +10,9 @@ namespace strake {
 ///
 /// Edge e has the darts 2 e and 2 e + 1, each other's opposites. Following `next` walks around the
 /// cell to the left of a dart. The graph may have loops, multiple edges and dangling ends; as long
-/// as it only changes by the operations below, its cells stay disks and its Euler characteristic
-/// stays that of the surface: every operation adds or removes an edge together with exactly one
-/// cell or one node.
+/// as it only changes by the operations below that link it themselves, its cells stay disks and its
+/// Euler characteristic stays that of the surface: every operation adds or removes an edge together
+/// with exactly one cell or one node.
 class DartGraph {
  public:
   static Index opposite(Index dart) { return dart ^ 1; }
@@ -45,6 +45,10 @@ class DartGraph {
   /// Removes an edge: merges the cells beside it, or takes a dangling edge away with its end node.
   /// \pre the cells beside it differ, or one end has degree one
   void remove_edge(Index dart);
+
+  /// Takes edges away without linking what is around them; the caller does.
+  /// \param darts  one of each edge
+  void drop_edges(const std::vector<Index>& darts);
 
   /// Joins the two edges at the degree-two node from(dart); keeps prev(dart)'s edge.
   /// \pre degree two, and not both ends of one loop

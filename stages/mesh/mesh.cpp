@@ -8,6 +8,7 @@
 #include "common/geometry/carry_attributes.h"
 #include "common/geometry/poly_topology/poly_topology.h"
 #include "common/geometry/topology/topology.h"
+#include "stages/mesh/flats.h"
 #include "stages/mesh/halfedge_check.h"
 #include "stages/mesh/overlay.h"
 #include "stages/mesh/pairing.h"
@@ -175,6 +176,8 @@ struct Cells {
   RegularisingCounts regularised;
   Index joined = 0;
   Index cut_pieces = 0;
+  Index split_features = 0;
+  Index redrawn_flats = 0;
 };
 
 /// Pure quads are made from faces of at most five sides.
@@ -198,14 +201,16 @@ Cells form_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions& o
                  const std::vector<Index>& component, const std::vector<char>& starved,
                  Observer& observer) {
   Index cuts = 0;
-  Cells cells{cut_out_cells(mesh, lines, component, starved, cuts, observer), {}, {}, {}, {}, 0, 0};
+  Cells cells{cut_out_cells(mesh, lines, component, starved, cuts, observer), {}, {}, {}, {}};
   cells.cut_pieces = cuts;
   observer.report("simplifying cells", 0.6);
   cells.simplified = simplify(
       cells.graph, [&](const SurfaceNode& node) { return local_size(mesh, lines, node); },
       kShortestEdge);
+  cells.split_features = split_crossing_features(cells.graph);
   observer.report("dividing cells", 0.8);
   cells.divided = partition(cells.graph, most_sides(options));
+  cells.redrawn_flats = redraw_flats(cells.graph);
   observer.report("pairing odd faces", 0.9);
   cells.paired = pair_odd_faces(
       cells.graph, [&](Index dart) { return wanted_length(mesh, lines, cells.graph, dart); },
@@ -244,6 +249,8 @@ MeshResult mesh_lines(const TriMesh& mesh, const LineSet& lines, const MeshOptio
   report.set("mesh.diagonals", static_cast<std::int64_t>(cells.divided.diagonals));
   report.set("mesh.straightened_nodes", static_cast<std::int64_t>(cells.divided.moved_nodes));
   report.set("mesh.centred_faces", static_cast<std::int64_t>(cells.divided.centred_faces));
+  report.set("mesh.crossing_features_split", static_cast<std::int64_t>(cells.split_features));
+  report.set("mesh.redrawn_flats", static_cast<std::int64_t>(cells.redrawn_flats));
   report.set("mesh.divided_patches", static_cast<std::int64_t>(cells.paired.divided_patches));
   report.set("mesh.split_strips", static_cast<std::int64_t>(cells.paired.split_strips));
   report.set("mesh.collapsed_strips", static_cast<std::int64_t>(cells.paired.collapsed_strips));

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
+#include <utility>
 
 #include "common/geometry/face_chart.h"
 
@@ -49,6 +52,54 @@ std::vector<char> kept_nodes(const TriMesh& mesh, const Overlay& overlay) {
     seen[n] = 1;
   }
   return kept;
+}
+
+/// From one node to another.
+using Side = std::pair<Index, Index>;
+
+std::array<Side, 3> sides(const std::array<Index, 3>& triangle) {
+  return {{{triangle[0], triangle[1]}, {triangle[1], triangle[2]}, {triangle[2], triangle[0]}}};
+}
+
+/// Whether triangles fill outlines and make a surface with what is around them: each side is that
+/// of an outline or of two triangles, and those at a corner of an outline are all there are between
+/// its two edges.
+bool fit_together(const DartGraph& graph, const std::vector<DartLoop>& outlines,
+                  const std::vector<std::array<Index, 3>>& triangles) {
+  std::map<Side, Index> across;  // the third corner
+  for (const auto& triangle : triangles) {
+    for (int i = 0; i < 3; ++i) {
+      if (!across.try_emplace(sides(triangle)[i], triangle[(i + 2) % 3]).second) return false;
+    }
+  }
+  std::set<Side> outer;
+  std::size_t corners = 0;
+  for (const DartLoop& outline : outlines) {
+    for (const Index d : outline) {
+      if (!outer.insert({graph.from(d), graph.to(d)}).second) return false;
+    }
+  }
+  for (const auto& [from, to] : outer) {
+    if (!across.contains({from, to})) return false;
+  }
+  for (const auto& [side, corner] : across) {
+    if (outer.contains(side)) continue;
+    const Side back(side.second, side.first);
+    if (!across.contains(back) || outer.contains(back)) return false;
+  }
+  for (const DartLoop& outline : outlines) {
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      const Index node = graph.from(outline[i]);
+      const Index before = graph.from(outline[i > 0 ? i - 1 : outline.size() - 1]);
+      Index at = graph.to(outline[i]);
+      do {
+        at = across.at({node, at});
+        ++corners;
+      } while (!outer.contains({at, node}));
+      if (at != before) return false;
+    }
+  }
+  return corners == 3 * triangles.size();
 }
 
 }  // namespace
@@ -171,13 +222,77 @@ double PolygonGraph::length(Index dart) const {
   return sum;
 }
 
-Index PolygonGraph::connect(Index a, Index b) {
-  const Index dart = graph_.connect(a, b);
+PolygonGraph::Bend PolygonGraph::bend(Index dart) const {
+  const std::vector<Vec3> course = this->course(dart);
+  const Vec3 along = course.back() - course.front();
+  const double squared = along.squaredNorm();
+  Bend bend;
+  double way = 0;
+  for (std::size_t i = 1; i + 1 < course.size() && squared > 0; ++i) {
+    way += (course[i] - course[i - 1]).norm();
+    const Vec3 offset = course[i] - course.front();
+    const double distance = (offset - along * (offset.dot(along) / squared)).norm();
+    if (distance > bend.distance) bend = {distance, way};
+  }
+  bend.share /= length(dart);
+  return bend;
+}
+
+void PolygonGraph::describe_plain_edge() {
   kind_.push_back(EdgeKind::line);
   line_.push_back(kNone);
   outer_.resize(outer_.size() + 2, 0);
   course_.emplace_back();
-  return dart;
+}
+
+Index PolygonGraph::connect(Index a, Index b) {
+  describe_plain_edge();
+  return graph_.connect(a, b);
+}
+
+std::vector<Index> PolygonGraph::refill(const std::vector<DartLoop>& outlines,
+                                        const std::vector<Index>& inside,
+                                        const std::vector<std::array<Index, 3>>& triangles) {
+  if (!fit_together(graph_, outlines, triangles)) return {};
+  std::map<Side, Index> dart_along;
+  std::map<Index, Index> dart_at;
+  for (const DartLoop& outline : outlines) {
+    for (const Index d : outline) {
+      dart_along[{graph_.from(d), graph_.to(d)}] = d;
+      dart_at[graph_.from(d)] = d;
+    }
+  }
+  std::vector<Side> added;
+  for (const auto& triangle : triangles) {
+    for (const auto& [from, to] : sides(triangle)) {
+      if (from < to && !dart_along.contains({from, to})) added.emplace_back(from, to);
+    }
+  }
+  std::set<Index> removed;
+  for (const Index d : inside) removed.insert({d, DartGraph::opposite(d)});
+  for (const auto& [from, to] : added) {
+    const Index first = dart_at.at(from);
+    Index d = first;
+    do {
+      if (graph_.to(d) == to && !removed.contains(d)) return {};
+      d = graph_.rotate_ccw(d);
+    } while (d != first);
+  }
+  graph_.drop_edges(inside);
+  for (const auto& [from, to] : added) {
+    const Index dart = graph_.add_edge(from, to);
+    describe_plain_edge();
+    dart_along[{from, to}] = dart;
+    dart_along[{to, from}] = DartGraph::opposite(dart);
+  }
+  std::vector<Index> made;
+  for (const auto& triangle : triangles) {
+    std::array<Index, 3> darts{};
+    for (int i = 0; i < 3; ++i) darts[i] = dart_along.at(sides(triangle)[i]);
+    for (int i = 0; i < 3; ++i) graph_.link(darts[i], darts[(i + 1) % 3]);
+    made.push_back(darts[0]);
+  }
+  return made;
 }
 
 /// Appends the course of `dart` to that of `first`, which ends where `dart` starts.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <boost/container/small_vector.hpp>
 #include <vector>
 
@@ -50,11 +51,25 @@ class PolygonGraph {
   /// to the next edge of the line, so that no part of it is forgotten.
   /// \pre as for DartGraph::contract
   void contract(Index dart);
+  /// Replaces the edges inside a part of the surface by those of triangles.
+  /// \param outlines   darts around the part and around its holes, the part on their left
+  /// \param inside     a dart of each edge inside
+  /// \param triangles  nodes of the outlines, each side an edge of them or one of two triangles
+  /// \return a dart of each triangle; nothing is done and returned where the triangles do not fit,
+  ///         or an edge would be double
+  std::vector<Index> refill(const std::vector<DartLoop>& outlines, const std::vector<Index>& inside,
+                            const std::vector<std::array<Index, 3>>& triangles);
   /// Joins the two edges at from(dart).
   void dissolve(Index dart);
   /// Splits the edge at the point of its course nearest to `share` of its length, in (0, 1).
   /// \return dart that leaves the new node towards to(dart)
   Index split(Index dart, double share);
+  /// The place on the course of an edge that is farthest from the straight way.
+  struct Bend {
+    double distance = 0;  ///< model units
+    double share = 0;     ///< of the length, as for `split`
+  };
+  [[nodiscard]] Bend bend(Index dart) const;
   /// Where `split` would put the new node.
   [[nodiscard]] Vec3 split_position(Index dart, double share) const;
   /// Moves a node on or near the surface; its place in the mesh stays that of its foot.
@@ -74,6 +89,8 @@ class PolygonGraph {
     [[nodiscard]] bool is_point() const { return resume > stop; }
   };
 
+  /// Of an edge that is being added and is part of no traced line.
+  void describe_plain_edge();
   [[nodiscard]] Cut cut(Index dart, double share) const;
   [[nodiscard]] const SurfaceNode& point(Index even, std::size_t i) const;
   void add_chain(const Overlay& overlay, Index first, std::vector<Index>& dart_of,

@@ -126,25 +126,11 @@ void divide_bent_barriers(PolygonGraph& graph, const LocalSize& size, SimplifyCo
   const DartGraph& g = graph.graph();
   for (Index d = 0; d < g.dart_count(); d += 2) {  // new edges come last and are looked at too
     if (!g.is_alive(d) || !graph.is_barrier(d) || g.from(d) == g.to(d)) continue;
-    const std::vector<Vec3> course = graph.course(d);
-    const Vec3 along = course.back() - course.front();
-    const double length = along.norm();
-    if (course.size() < 3 || !(length > 0)) continue;
-    double worst =
+    const double largest =
         kLargestSagitta * std::min(size(graph.node(g.from(d))), size(graph.node(g.to(d))));
-    double arc = 0;
-    double worst_arc = -1;
-    for (std::size_t i = 1; i + 1 < course.size(); ++i) {
-      arc += (course[i] - course[i - 1]).norm();
-      const Vec3 offset = course[i] - course.front();
-      const double distance = (offset - along * (offset.dot(along) / (length * length))).norm();
-      if (distance > worst) {
-        worst = distance;
-        worst_arc = arc;
-      }
-    }
-    if (worst_arc < 0) continue;
-    graph.split(d, worst_arc / graph.length(d));
+    const PolygonGraph::Bend bend = graph.bend(d);
+    if (!(bend.distance > largest)) continue;
+    graph.split(d, bend.share);
     ++counts.split_edges;
     d -= 2;  // the first half again
   }

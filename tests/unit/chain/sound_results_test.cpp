@@ -7,6 +7,7 @@
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/samples/samples.h"
 #include "strake/chain/remesh.h"
+#include "tests/support/plates.h"
 
 namespace strake {
 namespace {
@@ -59,6 +60,23 @@ TEST(Remesh, WithFewVerticesFacesDoNotCross) {
   const RemeshResult result = remesh({mesh, {}, {}, {}}, options);
   EXPECT_EQ(crossings(result.quads.mesh), 0u);
   EXPECT_NEAR(result.quads.mesh.vertex_count(), 200, 10);
+}
+
+// Straight edges of cells that are larger than pits in a plate run across them.
+TEST(Remesh, WithFewVerticesFacesOfAPlateDoNotCross) {
+  std::vector<support::Disk> pits;
+  for (int i = 0; i < 5; ++i) {
+    pits.push_back({Vec2(-3 + 1.3 * i, 0.4 * std::sin(2.0 * i)), 0.5, 24});
+    pits.push_back({Vec2(-2.4 + 1.3 * i, 1.4 + 0.2 * std::cos(3.0 * i)), 0.25, 16});
+  }
+  RemeshOptions options;
+  options.trace.vertices = 260;
+  options.measure = false;
+  const PolyMesh mesh = support::pitted_plate(10, pits, 0.05);
+  ASSERT_EQ(crossings(mesh), 0u);
+  const RemeshResult result = remesh({mesh, {}, {}, {}}, options);
+  EXPECT_EQ(crossings(result.quads.mesh), 0u);
+  EXPECT_NEAR(result.quads.mesh.vertex_count(), 260, 13);
 }
 
 }  // namespace

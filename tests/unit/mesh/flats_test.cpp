@@ -1,0 +1,180 @@
+#include "stages/mesh/flats.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "stages/mesh/cell_shape.h"
+#include "stages/mesh/partition.h"
+#include "stages/mesh/simplify.h"
+#include "tests/support/mesh_support.h"
+#include "tests/unit/mesh/graphs.h"
+
+namespace strake {
+namespace {
+
+constexpr Index kSize = 9;
+
+/// A grid of unit squares at z = 0, each cut in two.
+TriMesh grid() {
+  PolyMesh soup;
+  for (Index y = 0; y < kSize; ++y) {
+    for (Index x = 0; x < kSize; ++x) soup.positions.emplace_back(x, y, 0);
+  }
+  for (Index y = 0; y + 1 < kSize; ++y) {
+    for (Index x = 0; x + 1 < kSize; ++x) {
+      const Index v = y * kSize + x;
+      soup.add_face(std::array<Index, 3>{v, v + 1, v + 1 + kSize});
+      soup.add_face(std::array<Index, 3>{v, v + 1 + kSize, v + kSize});
+    }
+  }
+  TriMesh mesh = support::plain_tri_mesh(soup);
+  std::ranges::fill(mesh.is_corner, 1);  // every vertex of the boundary stays a node
+  return mesh;
+}
+
+/// The triangles of a mesh as cells. The mesh must outlive them.
+PolygonGraph triangle_cells(const TriMesh& mesh) {
+  Overlay overlay = overlay_of(mesh);
+  for (EdgeKind& kind : overlay.kind) {
+    if (kind == EdgeKind::surface) kind = EdgeKind::line;
+  }
+  return {mesh, overlay};
+}
+
+double turn(const Vec3& a, const Vec3& b, const Vec3& c) { return (b - a).cross(c - a).z(); }
+
+/// Pairs of edges at z = 0 without a node in common that cross, each tried against each.
+int crossing_edges(const PolygonGraph& graph, bool features_only) {
+  const DartGraph& g = graph.graph();
+  std::vector<Index> edges;
+  for (Index d = 0; d < g.dart_count(); d += 2) {
+    if (g.is_alive(d) && (!features_only || graph.is_barrier(d))) edges.push_back(d);
+  }
+  int count = 0;
+  for (const Index d : edges) {
+    for (const Index e : edges) {
+      const Index ends[] = {g.from(d), g.to(d), g.from(e), g.to(e)};
+      if (e <= d || ends[0] == ends[2] || ends[0] == ends[3] || ends[1] == ends[2] ||
+          ends[1] == ends[3]) {
+        continue;
+      }
+      const auto at = [&](int i) { return graph.position(ends[i]); };
+      count += turn(at(0), at(1), at(2)) * turn(at(0), at(1), at(3)) < 0 &&
+               turn(at(2), at(3), at(0)) * turn(at(2), at(3), at(1)) < 0;
+    }
+  }
+  return count;
+}
+
+/// Cells at z = 0 that are seen from below, or from the side.
+int turned_cells(const PolygonGraph& graph) {
+  int count = 0;
+  for (Index d = 0; d < graph.graph().dart_count(); ++d) {
+    if (!graph.graph().is_alive(d) || graph.is_hole(d) || graph.name_of_cell(d) != d) continue;
+    count += !(vector_area(corner_positions(graph, graph.cell(d))).z() > 0);
+  }
+  return count;
+}
+
+TEST(RedrawFlats, LeavesADrawingAsItIs) {
+  const TriMesh mesh = grid();
+  PolygonGraph graph = triangle_cells(mesh);
+  EXPECT_EQ(redraw_flats(graph), 0);
+  EXPECT_EQ(count(graph.graph()).edges, count(triangle_cells(mesh).graph()).edges);
+}
+
+// Nodes that have moved past their neighbours, as straight edges do around a corner.
+TEST(RedrawFlats, UntanglesWhateverIsTurned) {
+  const TriMesh mesh = grid();
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> shift(-1.4, 1.4);
+  int tangled = 0;
+  for (int trial = 0; trial < 30; ++trial) {
+    PolygonGraph graph = triangle_cells(mesh);
+    const Index euler = count(graph.graph()).euler();
+    for (int i = 0; i < 1 + trial; ++i) {
+      const auto n = static_cast<Index>(random() % graph.node_count());
+      if (graph.rank(n) != NodeRank::line) continue;
+      const Vec3 moved = graph.position(n) + Vec3(shift(random), shift(random), 0);
+      graph.move(n, moved.cwiseMax(0.1).cwiseMin(kSize - 1.1).cwiseProduct(Vec3(1, 1, 0)));
+    }
+    tangled += crossing_edges(graph, false) > 0;
+    redraw_flats(graph);
+    EXPECT_EQ(crossing_edges(graph, false), 0) << "trial " << trial;
+    EXPECT_EQ(turned_cells(graph), 0) << "trial " << trial;
+    EXPECT_TRUE(is_consistent(graph.graph()));
+    EXPECT_EQ(count(graph.graph()).euler(), euler);
+    EXPECT_EQ(count(graph.graph()).parts, 1);
+  }
+  EXPECT_GT(tangled, 20);
+}
+
+TEST(RedrawFlats, LeavesWhatIsBent) {
+  const TriMesh mesh = grid();
+  PolygonGraph graph = triangle_cells(mesh);
+  for (Index n = 0; n < graph.node_count(); ++n) {
+    const Vec3& p = graph.position(n);
+    graph.move(n, p + Vec3(0, 0, 0.3 * (p.x() * p.x() + p.y() * p.y())));
+  }
+  EXPECT_EQ(redraw_flats(graph), 0);
+}
+
+const Vec3 kCentre(-0.08, 0, 0);  ///< of the inner circle
+
+constexpr Index kSides = 96;
+
+/// A ring between two circles of many edges that nearly touch. A triangle in the inner one with a
+/// corner where they are farthest apart reaches out of that in the outer one.
+TriMesh narrow_ring() {
+  PolyMesh soup;
+  for (Index i = 0; i < kSides; ++i) {
+    const double angle = 2 * M_PI * i / kSides;
+    const Vec3 outer(std::cos(angle), std::sin(angle), 0);
+    soup.positions.insert(soup.positions.end(), {kCentre + 0.9 * outer, outer});
+  }
+  for (Index i = 0; i < 2 * kSides; i += 2) {
+    const Index next = (i + 2) % (2 * kSides);
+    soup.add_face(std::array<Index, 3>{i, i + 1, next + 1});
+    soup.add_face(std::array<Index, 3>{i, next + 1, next});
+  }
+  return support::plain_tri_mesh(soup);
+}
+
+/// Three cells of that ring, between lines from one circle to the other at the corners of those
+/// triangles.
+PolygonGraph three_cells(const TriMesh& mesh) {
+  Overlay overlay = overlay_of(mesh);
+  for (Index e = 0; e < overlay.graph.dart_count() / 2; ++e) {
+    const auto [a, b] = std::minmax({overlay.graph.from(2 * e), overlay.graph.to(2 * e)});
+    if (a % (2 * kSides / 3) == 0 && b == a + 1) overlay.kind[e] = EdgeKind::line;
+  }
+  reduce_to_lines(overlay);
+  return {mesh, overlay};
+}
+
+TEST(SplitCrossingFeatures, BringsThemBackToTheirCourse) {
+  const TriMesh mesh = narrow_ring();
+  PolygonGraph graph = three_cells(mesh);
+  simplify(graph, [](const SurfaceNode&) { return 12.0; }, 0.3);
+  ASSERT_GT(crossing_edges(graph, true), 0) << "the ring is finer than its edges";
+  EXPECT_GT(split_crossing_features(graph), 0);
+  EXPECT_EQ(crossing_edges(graph, true), 0);
+  for (Index d = 0; d < graph.graph().dart_count(); ++d) {
+    if (!graph.graph().is_alive(d)) continue;
+    const Vec3& p = graph.position(graph.graph().from(d));
+    EXPECT_LT(std::min(std::abs((p - kCentre).norm() - 0.9), std::abs(p.norm() - 1)), 1e-12);
+  }
+  EXPECT_LT(count(graph.graph()).nodes, 60) << "of 192";
+  partition(graph, 5);
+  redraw_flats(graph);
+  EXPECT_EQ(crossing_edges(graph, false), 0);
+  EXPECT_EQ(turned_cells(graph), 0);
+}
+
+}  // namespace
+}  // namespace strake
