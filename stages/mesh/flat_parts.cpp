@@ -14,6 +14,8 @@ using Plane = Eigen::Hyperplane<double, 3>;
 
 /// Corners of a cell may be off the plane by this share of its circumference.
 constexpr double kFlat = 0.01;
+/// Crossings for each cell of a part from which on it is no drawing that could be mended.
+constexpr std::size_t kTangle = 20;
 /// Corners around a node that turn by more are in another order than their darts.
 constexpr double kFullTurn = 2 * M_PI + 1e-6;
 
@@ -100,7 +102,13 @@ std::vector<Index> FlatParts::darts(Index part) const {
   return found;
 }
 
-std::vector<std::pair<Index, Index>> FlatParts::crossings(Index part) const {
+FlatParts::Crossings FlatParts::outline_crossings(Index part) const {
+  return crossings(part, false);
+}
+
+FlatParts::Crossings FlatParts::crossings(Index part) const { return crossings(part, true); }
+
+FlatParts::Crossings FlatParts::crossings(Index part, bool with_inside) const {
   struct Segment {
     Index dart;
     Index from;
@@ -114,12 +122,13 @@ std::vector<std::pair<Index, Index>> FlatParts::crossings(Index part) const {
   for (const Index d : darts(part)) {
     const Index other = DartGraph::opposite(d);
     if (d > other && has(part, other)) continue;  // once for both
+    if (!with_inside && is_inside(part, d)) continue;
     segments.push_back({d, g.from(d), g.to(d), place(part, g.from(d)), place(part, g.to(d))});
     boxes.push_back(box_around(segments.back().a, segments.back().b));
   }
   const BoxTree tree(boxes);
-  std::vector<std::pair<Index, Index>> pairs;
-  for (std::size_t i = 0; i < segments.size(); ++i) {
+  Crossings pairs;
+  for (std::size_t i = 0; i < segments.size() && !is_tangle(part, pairs); ++i) {
     const Segment& s = segments[i];
     tree.visit_touching(boxes[i], [&](Index j) {
       if (j <= static_cast<Index>(i)) return;
@@ -129,6 +138,10 @@ std::vector<std::pair<Index, Index>> FlatParts::crossings(Index part) const {
     });
   }
   return pairs;
+}
+
+bool FlatParts::is_tangle(Index part, const Crossings& crossings) const {
+  return crossings.size() > kTangle * cells(part).size();
 }
 
 std::vector<Index> FlatParts::turned(Index part) const {

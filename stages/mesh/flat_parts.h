@@ -29,8 +29,16 @@ class FlatParts {
   /// Whether the edge is no feature and has cells of the part on both sides.
   [[nodiscard]] bool is_inside(Index part, Index dart) const;
 
-  /// Pairs of edges of a part, each by a dart, that meet in the plane but have no node in common.
-  [[nodiscard]] std::vector<std::pair<Index, Index>> crossings(Index part) const;
+  /// Pairs of edges, each by a dart, that meet in the plane but have no node in common.
+  using Crossings = std::vector<std::pair<Index, Index>>;
+
+  /// Those of the edges around a part and around its holes, and of features in it.
+  [[nodiscard]] Crossings outline_crossings(Index part) const;
+  /// Those of all edges of a part. Where nothing is turned, no outlines cross and no cell crosses
+  /// itself there are none.
+  /// Both end early where they are so many that several sheets lie on each other (see `is_tangle`).
+  [[nodiscard]] Crossings crossings(Index part) const;
+  [[nodiscard]] bool is_tangle(Index part, const Crossings& crossings) const;
   /// Darts of a part at nodes around which corners are in another order than their darts, or that
   /// are corners of a cell turned over or without area.
   [[nodiscard]] std::vector<Index> turned(Index part) const;
@@ -50,6 +58,7 @@ class FlatParts {
   /// The cells in the plane of one that are reached over edges inside it, none of those taken.
   [[nodiscard]] std::vector<Index> grow(Index first, std::vector<char>& taken) const;
   [[nodiscard]] bool has(Index part, Index dart) const { return part_of_[dart] == part; }
+  [[nodiscard]] Crossings crossings(Index part, bool with_inside) const;
   /// Darts with a cell of the part on their left.
   [[nodiscard]] std::vector<Index> darts(Index part) const;
 

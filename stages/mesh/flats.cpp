@@ -11,8 +11,10 @@
 namespace strake {
 namespace {
 
-/// Times that all features which still cross are split, and that gaps grow before they are filled.
-constexpr int kMostRounds = 20;
+/// Times that all features which still cross are split.
+constexpr int kMostSplits = 20;
+/// Times that a gap is filled or takes in what is around it.
+constexpr int kMostFillings = 4;
 
 /// Edges by their even darts.
 using EdgeSet = std::set<Index>;
@@ -22,7 +24,7 @@ Index even(Index dart) { return dart & ~1; }
 /// Splits the features of a part that cross each other. \return how many
 Index split_features(PolygonGraph& graph, const FlatParts& parts, Index part) {
   EdgeSet crossing;
-  for (const auto& [a, b] : parts.crossings(part)) {
+  for (const auto& [a, b] : parts.outline_crossings(part)) {
     if (!graph.is_barrier(a) || !graph.is_barrier(b)) continue;
     for (const Index d : {a, b}) {
       if (graph.bend(d).distance > 0) crossing.insert(even(d));
@@ -42,7 +44,7 @@ class Redrawing {
   Index run() {
     Index filled = 0;
     find_bad_edges();
-    for (int round = 0; round < kMostRounds && !removed_.empty(); ++round) {
+    for (int round = 0; round < kMostFillings && !removed_.empty(); ++round) {
       remove_loose_ends();
       EdgeSet next;  // what cannot be filled takes in the cells around it
       for (const std::vector<Index>& gap : gaps()) {
@@ -63,7 +65,12 @@ class Redrawing {
 
   void find_bad_edges() {
     std::vector<Index> bad = parts_.turned(part_);
-    for (const auto& [a, b] : parts_.crossings(part_)) bad.insert(bad.end(), {a, b});
+    if (bad.empty() && parts_.outline_crossings(part_).empty()) return;
+    const FlatParts::Crossings crossings = parts_.crossings(part_);
+    if (parts_.is_tangle(part_, crossings)) return;
+    for (const auto& [a, b] : crossings) bad.insert(bad.end(), {a, b});
+    std::ranges::sort(bad);
+    bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
     for (const Index d : bad) {
       if (parts_.is_inside(part_, d)) removed_.insert(even(d));
     }
@@ -193,7 +200,7 @@ Index split_crossing_features(PolygonGraph& graph) {
   FlatParts parts(graph);
   Index count = 0;
   for (Index part = 0; part < parts.size(); ++part) {
-    for (int round = 0; round < kMostRounds; ++round) {
+    for (int round = 0; round < kMostSplits; ++round) {
       const Index split = split_features(graph, parts, part);
       if (split == 0) break;
       count += split;

@@ -278,6 +278,15 @@ std::vector<Index> PolygonGraph::refill(const std::vector<DartLoop>& outlines,
       d = graph_.rotate_ccw(d);
     } while (d != first);
   }
+  // As many cells more than edges as before, nodes that go counted as cells: else parts of the
+  // surface would come apart, or grow together.
+  std::set<Index> cells;
+  std::set<Index> gone;
+  for (const Index d : removed) {
+    cells.insert(name_of_cell(d));
+    if (!dart_at.contains(graph_.from(d))) gone.insert(graph_.from(d));
+  }
+  if (cells.size() + gone.size() + added.size() != triangles.size() + inside.size()) return {};
   graph_.drop_edges(inside);
   for (const auto& [from, to] : added) {
     const Index dart = graph_.add_edge(from, to);

@@ -101,8 +101,8 @@ TEST(TriangulateOutlines, IsDelaunay) {
 
 TEST(TriangulateOutlines, MayTouchThemselves) {
   // A hole with a corner on the outer outline, and two squares with a corner in common.
-  const std::vector<Vec2> points = {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {1, 2}, {2, 1},
-                                    {6, 4}, {6, 6}, {4, 6}};
+  const std::vector<Vec2> points = {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {1, 2},
+                                    {2, 1}, {6, 4}, {6, 6}, {4, 6}};
   const Outlines hole = {{0, 4, 5, 0, 1, 2, 3}};
   const Triangles around = triangulate_outlines(points, hole);
   EXPECT_EQ(around.size(), 5u);

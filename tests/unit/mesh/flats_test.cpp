@@ -5,9 +5,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
 #include <vector>
 
+#include "common/geometry/samples/samples.h"
 #include "stages/mesh/cell_shape.h"
 #include "stages/mesh/partition.h"
 #include "stages/mesh/simplify.h"
@@ -124,6 +126,73 @@ TEST(RedrawFlats, LeavesWhatIsBent) {
   EXPECT_EQ(redraw_flats(graph), 0);
 }
 
+// Both sides of a sheet are one flat part, and lie on each other: nothing can be drawn there.
+TEST(RedrawFlats, KeepsTheTopologyOfAFlattenedSphere) {
+  SampleOptions options;
+  options.faces = 500;
+  const TriMesh mesh = support::plain_tri_mesh(make_sample(SampleKind::sphere, options));
+  for (const double height : {0.0, 1e-3}) {
+    PolygonGraph graph = triangle_cells(mesh);
+    for (Index n = 0; n < graph.node_count(); ++n) {
+      graph.move(n, graph.position(n).cwiseProduct(Vec3(1, 1, height)));
+    }
+    redraw_flats(graph);
+    EXPECT_TRUE(is_consistent(graph.graph()));
+    EXPECT_EQ(count(graph.graph()).euler(), 2) << height;
+    EXPECT_EQ(count(graph.graph()).parts, 1) << height;
+  }
+}
+
+/// Fans of triangles around the second node of each outline; squares have the other diagonal.
+std::vector<std::array<Index, 3>> fans(const PolygonGraph& graph,
+                                       const std::vector<DartLoop>& outlines) {
+  std::vector<std::array<Index, 3>> triangles;
+  for (const DartLoop& o : outlines) {
+    const auto node = [&](std::size_t i) { return graph.graph().from(o[i % o.size()]); };
+    for (std::size_t i = 2; i < o.size(); ++i) {
+      triangles.push_back({node(1), node(i), node(i + 1)});
+    }
+  }
+  return triangles;
+}
+
+// A ring of cells has two outlines, each of which triangles could fill.
+TEST(Refill, TakesNoTrianglesThatCutTheSurfaceApart) {
+  const TriMesh mesh = grid();
+  PolygonGraph graph = triangle_cells(mesh);
+  const DartGraph& g = graph.graph();
+  const auto is_in_ring = [&](Index d) {
+    const Vec3 p = vector_area(corner_positions(graph, graph.cell(d)));
+    Vec3 middle = Vec3::Zero();
+    for (const Vec3& corner : corner_positions(graph, graph.cell(d))) middle += corner / 3;
+    const double away = (middle - Vec3(4.5, 4.5, 0)).cwiseAbs().maxCoeff();
+    return p.z() > 0 && away > 0.5 && away < 1.5 && !graph.is_hole(d);
+  };
+  std::vector<Index> inside;
+  std::map<Index, Index> leaving;  // the outlines' dart from each node
+  for (Index d = 0; d < g.dart_count(); ++d) {
+    if (!is_in_ring(d)) continue;
+    if (!is_in_ring(DartGraph::opposite(d))) {
+      leaving[g.from(d)] = d;
+    } else if (d % 2 == 0) {
+      inside.push_back(d);
+    }
+  }
+  ASSERT_EQ(leaving.size(), 16u);
+  std::vector<DartLoop> outlines;
+  while (!leaving.empty()) {
+    DartLoop& outline = outlines.emplace_back();
+    for (auto at = leaving.begin(); at != leaving.end(); at = leaving.find(g.to(outline.back()))) {
+      outline.push_back(at->second);
+      leaving.erase(at);
+    }
+  }
+  ASSERT_EQ(outlines.size(), 2u);
+  EXPECT_TRUE(graph.refill(outlines, inside, fans(graph, outlines)).empty());
+  EXPECT_EQ(count(g).edges, count(triangle_cells(mesh).graph()).edges);
+  EXPECT_EQ(count(g).parts, 1);
+}
+
 const Vec3 kCentre(-0.08, 0, 0);  ///< of the inner circle
 
 constexpr Index kSides = 96;
@@ -160,7 +229,8 @@ PolygonGraph three_cells(const TriMesh& mesh) {
 TEST(SplitCrossingFeatures, BringsThemBackToTheirCourse) {
   const TriMesh mesh = narrow_ring();
   PolygonGraph graph = three_cells(mesh);
-  simplify(graph, [](const SurfaceNode&) { return 12.0; }, 0.3);
+  simplify(
+      graph, [](const SurfaceNode&) { return 12.0; }, 0.3);
   ASSERT_GT(crossing_edges(graph, true), 0) << "the ring is finer than its edges";
   EXPECT_GT(split_crossing_features(graph), 0);
   EXPECT_EQ(crossing_edges(graph, true), 0);
