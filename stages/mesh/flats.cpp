@@ -124,22 +124,28 @@ class Redrawing {
     return found;
   }
 
-  /// Darts around a gap and around what stays inside of it, the gap on their left.
-  [[nodiscard]] std::vector<DartLoop> outlines(const std::vector<Index>& gap) const {
+  /// The darts that follow each other along the border of a gap, the gap on their left.
+  [[nodiscard]] std::vector<Index> outline_from(Index first) const {
     const DartGraph& g = graph_.graph();
-    std::vector<DartLoop> found;
+    std::vector<Index> outline;
+    Index d = first;
+    do {
+      outline.push_back(d);
+      d = g.next(d);
+      while (is_removed(d)) d = g.next(DartGraph::opposite(d));
+    } while (d != first);
+    return outline;
+  }
+
+  /// The outlines of a gap: around it, and around what stays inside of it.
+  [[nodiscard]] std::vector<std::vector<Index>> outlines(const std::vector<Index>& gap) const {
+    std::vector<std::vector<Index>> found;
     std::set<Index> seen;
     for (const Index cell : gap) {
-      for (const Index first : graph_.cell(cell)) {
-        if (is_removed(first) || seen.contains(first)) continue;
-        DartLoop& outline = found.emplace_back();
-        Index d = first;
-        do {
-          outline.push_back(d);
-          seen.insert(d);
-          d = g.next(d);
-          while (is_removed(d)) d = g.next(DartGraph::opposite(d));
-        } while (d != first);
+      for (const Index d : graph_.cell(cell)) {
+        if (is_removed(d) || seen.contains(d)) continue;
+        found.push_back(outline_from(d));
+        seen.insert(found.back().begin(), found.back().end());
       }
     }
     return found;
@@ -147,9 +153,9 @@ class Redrawing {
 
   /// Triangles of nodes; none where the outlines cross.
   [[nodiscard]] std::vector<std::array<Index, 3>> triangles_within(
-      const std::vector<DartLoop>& outlines) const {
+      const std::vector<std::vector<Index>>& outlines) const {
     std::vector<Index> nodes;
-    for (const DartLoop& outline : outlines) {
+    for (const std::vector<Index>& outline : outlines) {
       for (const Index d : outline) nodes.push_back(graph_.graph().from(d));
     }
     std::ranges::sort(nodes);
@@ -157,12 +163,13 @@ class Redrawing {
     std::vector<Vec2> points;
     for (const Index node : nodes) points.push_back(parts_.place(part_, node));
     std::vector<std::vector<Index>> rings;
-    for (const DartLoop& outline : outlines) {
-      std::vector<Index>& ring = rings.emplace_back();
+    for (const std::vector<Index>& outline : outlines) {
+      std::vector<Index> ring;
       for (const Index d : outline) {
         const auto at = std::ranges::lower_bound(nodes, graph_.graph().from(d));
         ring.push_back(static_cast<Index>(at - nodes.begin()));
       }
+      rings.push_back(std::move(ring));
     }
     auto triangles = triangulate_outlines(points, rings);
     for (auto& triangle : triangles) {
@@ -172,7 +179,7 @@ class Redrawing {
   }
 
   bool fill(const std::vector<Index>& gap) {
-    const std::vector<DartLoop> around = outlines(gap);
+    const std::vector<std::vector<Index>> around = outlines(gap);
     const std::vector<std::array<Index, 3>> triangles = triangles_within(around);
     if (triangles.empty()) return false;
     EdgeSet inside;

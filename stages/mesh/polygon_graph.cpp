@@ -64,7 +64,7 @@ std::array<Side, 3> sides(const std::array<Index, 3>& triangle) {
 /// Whether triangles fill outlines and make a surface with what is around them: each side is that
 /// of an outline or of two triangles, and those at a corner of an outline are all there are between
 /// its two edges.
-bool fit_together(const DartGraph& graph, const std::vector<DartLoop>& outlines,
+bool fit_together(const DartGraph& graph, const std::vector<std::vector<Index>>& outlines,
                   const std::vector<std::array<Index, 3>>& triangles) {
   std::map<Side, Index> across;  // the third corner
   for (const auto& triangle : triangles) {
@@ -74,7 +74,7 @@ bool fit_together(const DartGraph& graph, const std::vector<DartLoop>& outlines,
   }
   std::set<Side> outer;
   std::size_t corners = 0;
-  for (const DartLoop& outline : outlines) {
+  for (const std::vector<Index>& outline : outlines) {
     for (const Index d : outline) {
       if (!outer.insert({graph.from(d), graph.to(d)}).second) return false;
     }
@@ -87,7 +87,7 @@ bool fit_together(const DartGraph& graph, const std::vector<DartLoop>& outlines,
     const Side back(side.second, side.first);
     if (!across.contains(back) || outer.contains(back)) return false;
   }
-  for (const DartLoop& outline : outlines) {
+  for (const std::vector<Index>& outline : outlines) {
     for (std::size_t i = 0; i < outline.size(); ++i) {
       const Index node = graph.from(outline[i]);
       const Index before = graph.from(outline[i > 0 ? i - 1 : outline.size() - 1]);
@@ -250,13 +250,13 @@ Index PolygonGraph::connect(Index a, Index b) {
   return graph_.connect(a, b);
 }
 
-std::vector<Index> PolygonGraph::refill(const std::vector<DartLoop>& outlines,
+std::vector<Index> PolygonGraph::refill(const std::vector<std::vector<Index>>& outlines,
                                         const std::vector<Index>& inside,
                                         const std::vector<std::array<Index, 3>>& triangles) {
   if (!fit_together(graph_, outlines, triangles)) return {};
   std::map<Side, Index> dart_along;
   std::map<Index, Index> dart_at;
-  for (const DartLoop& outline : outlines) {
+  for (const std::vector<Index>& outline : outlines) {
     for (const Index d : outline) {
       dart_along[{graph_.from(d), graph_.to(d)}] = d;
       dart_at[graph_.from(d)] = d;

@@ -57,7 +57,8 @@ class PolygonGraph {
   /// \param triangles  nodes of the outlines, each side an edge of them or one of two triangles
   /// \return a dart of each triangle; nothing is done and returned where the triangles do not fit,
   ///         an edge would be double, or the topology another one
-  std::vector<Index> refill(const std::vector<DartLoop>& outlines, const std::vector<Index>& inside,
+  std::vector<Index> refill(const std::vector<std::vector<Index>>& outlines,
+                            const std::vector<Index>& inside,
                             const std::vector<std::array<Index, 3>>& triangles);
   /// Joins the two edges at from(dart).
   void dissolve(Index dart);

@@ -63,10 +63,11 @@ class Geos {
       const GEOSGeometry* triangle = GEOSGetGeometryN_r(handle_, triangles.get(), t);
       const GEOSCoordSequence* sequence =
           GEOSGeom_getCoordSeq_r(handle_, GEOSGetExteriorRing_r(handle_, triangle));
-      std::array<Vec2, 3>& to = corners.emplace_back();
+      std::array<Vec2, 3> places;
       for (unsigned i = 0; i < 3; ++i) {
-        GEOSCoordSeq_getXY_r(handle_, sequence, i, &to[i].x(), &to[i].y());
+        GEOSCoordSeq_getXY_r(handle_, sequence, i, &places[i].x(), &places[i].y());
       }
+      corners.push_back(places);
     }
     return corners;
   }

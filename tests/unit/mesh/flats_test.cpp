@@ -145,9 +145,9 @@ TEST(RedrawFlats, KeepsTheTopologyOfAFlattenedSphere) {
 
 /// Fans of triangles around the second node of each outline; squares have the other diagonal.
 std::vector<std::array<Index, 3>> fans(const PolygonGraph& graph,
-                                       const std::vector<DartLoop>& outlines) {
+                                       const std::vector<std::vector<Index>>& outlines) {
   std::vector<std::array<Index, 3>> triangles;
-  for (const DartLoop& o : outlines) {
+  for (const std::vector<Index>& o : outlines) {
     const auto node = [&](std::size_t i) { return graph.graph().from(o[i % o.size()]); };
     for (std::size_t i = 2; i < o.size(); ++i) {
       triangles.push_back({node(1), node(i), node(i + 1)});
@@ -179,13 +179,14 @@ TEST(Refill, TakesNoTrianglesThatCutTheSurfaceApart) {
     }
   }
   ASSERT_EQ(leaving.size(), 16u);
-  std::vector<DartLoop> outlines;
+  std::vector<std::vector<Index>> outlines;
   while (!leaving.empty()) {
-    DartLoop& outline = outlines.emplace_back();
+    std::vector<Index> outline;
     for (auto at = leaving.begin(); at != leaving.end(); at = leaving.find(g.to(outline.back()))) {
       outline.push_back(at->second);
       leaving.erase(at);
     }
+    outlines.push_back(std::move(outline));
   }
   ASSERT_EQ(outlines.size(), 2u);
   EXPECT_TRUE(graph.refill(outlines, inside, fans(graph, outlines)).empty());
