@@ -5,20 +5,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <functional>
-#include <limits>
-#include <optional>
 #include <utility>
 
 #include "common/geometry/mesh_measures.h"
+#include "stages/trace/grading.h"
 #include "stages/trace/line_flow.h"
 
 namespace strake {
 namespace {
-
-/// Aspect ratio that grading may give to cells where curvature asks for none.
-constexpr double kGradedAspect = 2;
 
 /// Radius of what counts as a needle whatever the tolerance, in smallest spacings.
 constexpr double kThickestNeedle = 5;
@@ -38,60 +32,6 @@ double normal_curvature(const PrincipalField& field, Index w, const Vec3& d) {
   const double c2 = std::min(1.0, c * c);
   return std::abs(field.k_min[w] * c2 + field.k_max[w] * (1 - c2));
 }
-
-/// Keys in the order of their values. They wait by intervals, and only those of the first one are
-/// in a heap. No value may be added that is below those taken out last.
-class KeyQueue {
- public:
-  /// \param width  of the intervals; they are wider where there would be too many
-  KeyQueue(double least, double largest, double width)
-      : least_(least),
-        per_width_(1 / std::max({width, (largest - least) / kMostIntervals,
-                                 std::numeric_limits<double>::min()})),
-        waiting_(interval_of(largest) + 1) {}
-
-  void push(double value, Index key) {
-    const std::size_t interval = interval_of(value);
-    if (interval >= next_) {
-      waiting_[interval].push_back(key);
-    } else {
-      heap_.emplace_back(value, key);
-      std::ranges::push_heap(heap_, std::greater());
-    }
-  }
-
-  /// Takes out the key of the least value.
-  /// \param value  [keys] the present ones; keys whose value has fallen since are left out
-  std::optional<Index> pop(const std::vector<double>& value) {
-    while (true) {
-      while (!heap_.empty()) {
-        std::ranges::pop_heap(heap_, std::greater());
-        const auto [pushed, key] = heap_.back();
-        heap_.pop_back();
-        if (pushed == value[key]) return key;
-      }
-      if (next_ == waiting_.size()) return std::nullopt;
-      for (const Index key : waiting_[next_]) {
-        if (interval_of(value[key]) == next_) heap_.emplace_back(value[key], key);
-      }
-      std::ranges::make_heap(heap_, std::greater());
-      std::vector<Index>().swap(waiting_[next_++]);
-    }
-  }
-
- private:
-  static constexpr double kMostIntervals = 1 << 16;
-
-  [[nodiscard]] std::size_t interval_of(double value) const {
-    return static_cast<std::size_t>((value - least_) * per_width_);
-  }
-
-  double least_;
-  double per_width_;
-  std::vector<std::vector<Index>> waiting_;
-  std::size_t next_ = 0;  ///< the first interval that waits
-  std::vector<std::pair<double, Index>> heap_;
-};
 
 }  // namespace
 
@@ -118,14 +58,6 @@ SpacingModel::SpacingModel(const TriMesh& mesh, const PrincipalField& field, con
     curvature_along_[w] = normal_curvature(field, w, field.cross[w]);
     curvature_across_[w] = normal_curvature(field, w, field.normal[w].cross(field.cross[w]));
   });
-}
-
-template <class Use>
-void SpacingModel::for_bounded(Index key, const Use& use) const {
-  for (Index at = bonds_.first(key / 2); at < bonds_.first(key / 2 + 1); ++at) {
-    use(bonds_.bonded(at, key), bonds_.length(at, key / 2));
-  }
-  bonds_.for_each_tied(key, [&](Index other) { use(other, 0.0); });
 }
 
 void SpacingModel::bound_along(const std::vector<Index>& halfedges, double length) {
@@ -176,52 +108,9 @@ void SpacingModel::apply_bounds(const SpacingLimits& limits, Spacing& spacing) c
   }
 }
 
-/// Bounds the slope of both spacings by a wave from the smallest values outwards.
-void SpacingModel::grade(const SpacingLimits& limits, Spacing& spacing) const {
-  const auto keys = static_cast<Index>(2 * areas_.size());
-  std::vector<double> value(keys);
-  std::vector<double> aspect(areas_.size());
-  for (std::size_t w = 0; w < areas_.size(); ++w) {
-    value[2 * w] = spacing.along[w];
-    value[2 * w + 1] = spacing.across[w];
-    // Where the surface itself is not anisotropic, neither should grading make the cells so.
-    const auto [small, large] = std::minmax(spacing.along[w], spacing.across[w]);
-    aspect[w] = std::max(kGradedAspect, large / small);
-  }
-  const auto [least, largest] = std::ranges::minmax(value);
-  KeyQueue queue(least, largest, limits.gradation * bonds_.mean_length());
-  // Start from the values that bound another now; the rest follows in order of size.
-  std::vector<std::uint8_t> bounds(keys);
-  tbb::parallel_for(Index{0}, keys, [&](Index key) {
-    bounds[key] = aspect[key / 2] * value[key] < value[key ^ 1];
-    for_bounded(key, [&](Index other, double distance) {
-      if (value[key] + limits.gradation * distance < value[other]) bounds[key] = 1;
-    });
-  });
-  for (Index key = 0; key < keys; ++key) {
-    if (bounds[key] != 0) queue.push(value[key], key);
-  }
-  while (const std::optional<Index> next = queue.pop(value)) {
-    const Index key = *next;
-    const auto lower = [&](Index target, double reach) {
-      if (!(reach < value[target])) return;
-      value[target] = reach;
-      queue.push(reach, target);
-    };
-    lower(key ^ 1, aspect[key / 2] * value[key]);
-    for_bounded(key, [&](Index other, double distance) {
-      lower(other, value[key] + limits.gradation * distance);
-    });
-  }
-  for (std::size_t w = 0; w < areas_.size(); ++w) {
-    spacing.along[w] = value[2 * w];
-    spacing.across[w] = value[2 * w + 1];
-  }
-}
-
 Spacing SpacingModel::for_tolerance(double tolerance, const SpacingLimits& limits) const {
   Spacing spacing = ungraded(tolerance, limits);
-  grade(limits, spacing);
+  grade_spacing(bonds_, limits.gradation, spacing);
   return spacing;
 }
 
@@ -237,7 +126,9 @@ void SpacingModel::follow_lines(double cells, const SpacingLimits& limits, Spaci
   apply_bounds(limits, spacing);
 }
 
-double SpacingModel::tolerance_for_count(double count, const SpacingLimits& limits) const {
+std::pair<double, Spacing> SpacingModel::for_count(double count,
+                                                   const SpacingLimits& limits) const {
+  constexpr int kMostRounds = 12;
   constexpr double kAccuracy = 0.02;
   const double unit = size_ != nullptr ? 1e3 : mesh_.diagonal;
   const double least = std::log(1e-9 * unit);
@@ -257,10 +148,12 @@ double SpacingModel::tolerance_for_count(double count, const SpacingLimits& limi
   double slope = -0.8;
   double last_at = 0;
   double last_error = 0;
-  for (int round = 0; round < 12; ++round) {
-    const double error =
-        std::log(predicted_vertices(areas_, for_tolerance(std::exp(at), limits)) / count);
-    if (std::abs(error) < kAccuracy) break;
+  for (int round = 0;; ++round) {
+    Spacing spacing = for_tolerance(std::exp(at), limits);
+    const double error = std::log(predicted_vertices(areas_, spacing) / count);
+    if (std::abs(error) < kAccuracy || round == kMostRounds) {
+      return {std::exp(at), std::move(spacing)};
+    }
     (error > 0 ? low : high) = at;
     if (round > 0 && at != last_at) {
       slope = std::clamp((error - last_error) / (at - last_at), -2.0, -0.1);
@@ -270,7 +163,6 @@ double SpacingModel::tolerance_for_count(double count, const SpacingLimits& limi
     const double next = at - error / slope;
     at = next > low && next < high ? next : 0.5 * (low + high);
   }
-  return std::exp(at);
 }
 
 }  // namespace strake

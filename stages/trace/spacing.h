@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "common/core/fields.h"
@@ -47,8 +48,10 @@ class SpacingModel {
   /// knows no tolerance, `tolerance` is the square of a factor on its distances.
   [[nodiscard]] Spacing for_tolerance(double tolerance, const SpacingLimits& limits) const;
 
-  /// The tolerance whose graded spacings predict `count` vertices, within 2 % where there is one.
-  [[nodiscard]] double tolerance_for_count(double count, const SpacingLimits& limits) const;
+  /// The tolerance whose graded spacings predict `count` vertices, within 2 % where there is one,
+  /// and these spacings.
+  [[nodiscard]] std::pair<double, Spacing> for_count(double count,
+                                                     const SpacingLimits& limits) const;
 
   /// Brings graded spacings nearer to those that lines keep by themselves (see line_flow.h), for as
   /// many vertices.
@@ -57,11 +60,7 @@ class SpacingModel {
   [[nodiscard]] const std::vector<double>& areas() const { return areas_; }
 
  private:
-  /// Calls use(other key, distance) for all values that the one of a key bounds.
-  template <class Use>
-  void for_bounded(Index key, const Use& use) const;
   [[nodiscard]] Spacing ungraded(double tolerance, const SpacingLimits& limits) const;
-  void grade(const SpacingLimits& limits, Spacing& spacing) const;
   void apply_bounds(const SpacingLimits& limits, Spacing& spacing) const;
 
   const TriMesh& mesh_;

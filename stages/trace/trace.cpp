@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <tuple>
 #include <utility>
 
 #include "common/core/error.h"
@@ -83,6 +84,7 @@ std::pair<Spacing, double> choose_spacing(const TriMesh& mesh, const PrincipalFi
     model.multiply_density(density_at_wedges(mesh, *sizes.density));
   }
   bound_rings(mesh, model);
+  Spacing spacing;
   double family_tolerance =
       sizes.size != nullptr
           ? 1
@@ -93,10 +95,12 @@ std::pair<Spacing, double> choose_spacing(const TriMesh& mesh, const PrincipalFi
     for (const double a : model.areas()) area += a;
     // Relative to the mean cell: flats may be coarse, but not out of proportion.
     if (!options.max_spacing) limits.largest = kLargestCell * std::sqrt(area / count);
-    family_tolerance = model.tolerance_for_count(count, limits);
+    std::tie(family_tolerance, spacing) = model.for_count(count, limits);
   }
   limits.scale = options.spacing_scale;
-  Spacing spacing = model.for_tolerance(family_tolerance, limits);
+  if (spacing.along.empty() || limits.scale != 1) {
+    spacing = model.for_tolerance(family_tolerance, limits);
+  }
   // What a user says of distances or of lines counts more than where lines end.
   const bool is_free = sizes.density == nullptr && field.guides.line_count() == 0;
   if (is_free) model.follow_lines(options.line_flow, limits, spacing);

@@ -294,7 +294,7 @@ TEST(PredictedVertices, IsTheAreaInCells) {
   EXPECT_NEAR(predicted_vertices(wedge_areas(mesh), spacing), area / (0.04 * 0.1), 1e-6);
 }
 
-TEST(ToleranceForCount, FallsWithTheCountAndPredictsIt) {
+TEST(SpacingForCount, ToleranceFallsWithTheCountAndPredictsIt) {
   const TriMesh mesh = sample_mesh(SampleKind::torus, 4000);
   PrincipalField field = field_along(mesh, [](const Vec3& p) { return Vec3(-p.y(), p.x(), 0); });
   for (Index w = 0; w < mesh.wedge_count(); ++w) {
@@ -309,12 +309,13 @@ TEST(ToleranceForCount, FallsWithTheCountAndPredictsIt) {
   limits.largest = 0.3 * mesh.diagonal;
   double last = kInfinite;
   for (const double count : {100.0, 300.0, 1000.0, 3000.0, 10000.0, 50000.0}) {
-    const double tolerance = model.tolerance_for_count(count, limits);
+    const auto [tolerance, spacing] = model.for_count(count, limits);
     EXPECT_LT(tolerance, last);
     last = tolerance;
-    const double predicted =
-        predicted_vertices(model.areas(), model.for_tolerance(tolerance, limits));
-    EXPECT_NEAR(predicted / count, 1, 0.021);
+    EXPECT_NEAR(predicted_vertices(model.areas(), spacing) / count, 1, 0.021);
+    const Spacing again = model.for_tolerance(tolerance, limits);
+    EXPECT_EQ(spacing.along, again.along);
+    EXPECT_EQ(spacing.across, again.across);
   }
 }
 
