@@ -16,8 +16,8 @@ struct SizeOptions {
   /// Error to aim at; default: the mean of all cells, so that the number of cells stays about the
   /// same and errors become more even.
   std::optional<Length> tolerance;
-  double feedback =
-      0.4;  ///< distances change with this power of the error; 0.5 corrects it at once
+  /// Distances change with this power of the error; 0.5 corrects it at once.
+  std::optional<double> feedback;
 
   OptionList declare();
 };
@@ -33,9 +33,12 @@ struct SizeResult {
 /// square of its size, so where it is k times what is aimed at the distances shrink by k^feedback;
 /// of the two directions the one along which the surface bends away from the cell more shrinks
 /// more. Errors are averaged over neighbouring cells first: what a single cell is off by is mostly
-/// chance of where lines lie, and will be elsewhere the next time. \param lines    what `quads` was
-/// made from: the distances used \param density  where vertices are wanted more densely errors
-/// count as much more; may be nullptr \pre all belong to `mesh`. Deterministic for any thread count
+/// chance of where lines lie, and will be elsewhere the next time.
+///
+/// Deterministic for any number of threads.
+/// \param lines    what `quads` was made from: the distances used
+/// \param density  where vertices are wanted more densely errors count as much more; may be nullptr
+/// \pre all belong to `mesh`
 SizeResult size_from_errors(const TriMesh& mesh, const PrincipalField& field, const LineSet& lines,
                             const QuadMesh& quads, const DensityField* density,
                             const SizeOptions& options, Observer& observer);
