@@ -13,11 +13,14 @@ namespace {
 
 /// Factor on the distances of lines around faces that cross.
 constexpr double kCloser = 0.7;
-constexpr Index kMostAttempts = 5;
+constexpr Index kMostAttempts = 8;
 /// Faces of all attempts together; one is made of any number.
 constexpr Index kMostFaces = 200000;
-/// Attempts that may leave more than half of the faces that cross.
+/// Attempts that may leave more than half of the faces that cross. Whether the last few cross is
+/// chance, and worth more of them.
 constexpr int kPatience = 3;
+constexpr int kPatienceForFew = 6;
+constexpr std::size_t kFewPlaces = 10;
 /// Where more faces cross the shape is finer than its lines all over.
 constexpr std::size_t kMostPlaces = 1000;
 
@@ -35,14 +38,16 @@ Attempt part_faces(const Attempt& first, Index faces, const std::function<Attemp
   Attempt best = first;
   Attempt last = first;
   bool is_last_best = true;
-  int patience = kPatience;
+  int failed = 0;
   const auto is_worth_it = [&] {
-    return patience > 0 && !best.places.empty() && best.places.size() <= kMostPlaces;
+    const int patience = best.places.size() <= kFewPlaces ? kPatienceForFew : kPatience;
+    return failed < patience && !best.places.empty() && best.places.size() <= kMostPlaces;
   };
   const Index attempts =
       std::clamp<Index>(kMostFaces / std::max<Index>(faces, 1), 1, kMostAttempts);
   for (Index i = 0; i < attempts && is_worth_it(); ++i) {
     Session session = last.done;
+    const std::vector<Vec3> before = last.places;
     session.say(fmt::format("{} faces cross; tracing closer lines around {} places",
                             best.places.size(), last.places.size()));
     want_closer(session, last.places, kCloser);
@@ -52,9 +57,10 @@ Attempt part_faces(const Attempt& first, Index faces, const std::function<Attemp
       is_last_best = false;
       break;
     }
-    if (last.misses_goal || 2 * last.places.size() > best.places.size()) --patience;
+    if (last.misses_goal || 2 * last.places.size() > best.places.size()) ++failed;
     is_last_best = !last.misses_goal && last.places.size() < best.places.size();
     if (is_last_best) best = last;
+    if (last.places == before) break;  // lines are as close as they may be: all would be the same
   }
   if (!is_last_best) keep(best);
   return best;

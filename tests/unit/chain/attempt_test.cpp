@@ -61,17 +61,31 @@ TEST(PartFaces, EndsWhereNoFacesCross) {
   EXPECT_EQ(attempts.kept(), 0u);
 }
 
-TEST(PartFaces, GoesOnForFiveAttemptsThatHelp) {
-  Attempts attempts({64, 32, 16, 8, 4, 2, 1});
+TEST(PartFaces, GoesOnForEightAttemptsThatHelp) {
+  Attempts attempts({512, 256, 128, 64, 32, 16, 8, 4, 2, 1});
   EXPECT_EQ(attempts.part(100).places.size(), 2u);
-  EXPECT_EQ(attempts.again(), 5u);
+  EXPECT_EQ(attempts.again(), 8u);
 }
 
 TEST(PartFaces, GivesUpAfterThreeThatDoNotAndKeepsTheBest) {
-  Attempts attempts({8, 7, 9, 8, 0});
-  EXPECT_EQ(attempts.part(100).places.size(), 7u);
+  Attempts attempts({80, 70, 90, 80, 0});
+  EXPECT_EQ(attempts.part(100).places.size(), 70u);
   EXPECT_EQ(attempts.again(), 3u);
-  EXPECT_EQ(attempts.kept(), 7u);
+  EXPECT_EQ(attempts.kept(), 70u);
+}
+
+TEST(PartFaces, GivesUpAfterSixWhereFewCross) {
+  Attempts attempts({8, 7, 9, 8, 7, 6, 8, 0});
+  EXPECT_EQ(attempts.part(100).places.size(), 6u);
+  EXPECT_EQ(attempts.again(), 6u);
+  EXPECT_EQ(attempts.kept(), 6u);
+}
+
+TEST(PartFaces, GivesUpWhereNothingChangesAnyMore) {
+  Attempts attempts({50, 60, 60, 0});
+  EXPECT_EQ(attempts.part(100).places.size(), 50u);
+  EXPECT_EQ(attempts.again(), 2u);
+  EXPECT_EQ(attempts.kept(), 50u);
 }
 
 TEST(PartFaces, MakesFewerAttemptsAtALargeResult) {
