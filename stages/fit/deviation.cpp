@@ -217,6 +217,15 @@ double Deviation::mean() const {
   return area > 0 ? sum() / area : 0.0;
 }
 
+double Deviation::largest() const {
+  double largest = 0;
+  for (const Gap& gap : from_result_) largest = std::max(largest, std::abs(gap.distance));
+  for (const SurfaceGap& from : from_surface_) {
+    largest = std::max(largest, std::abs(from.gap.distance));
+  }
+  return largest;
+}
+
 void Deviation::add_to(BlockSystem& system) const {
   // The six samples of a triangle concern the same vertices: their sum is looked up once.
   add_in_turn(system, triangles_.size(), [&](std::size_t t, TriangleTerms& terms) {

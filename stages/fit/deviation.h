@@ -41,6 +41,8 @@ class Deviation {
   /// Sum of area times squared distance, and the mean of the squared distance.
   [[nodiscard]] double sum() const;
   [[nodiscard]] double mean() const;
+  /// The largest distance of a sample.
+  [[nodiscard]] double largest() const;
 
   /// What moves are to lower: that sum, in which a distance d counts 1 + d / far times, where far
   /// is twice the root mean square of the first measurement. A few far places are what one sees,

@@ -12,9 +12,9 @@
 #include "common/geometry/angles.h"
 #include "common/geometry/face_crossings/box_tree.h"
 #include "common/geometry/face_crossings/face_crossings.h"
+#include "common/geometry/patch_fill/mendable_crossings.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_edges.h"
-#include "stages/fit/mendable_crossings.h"
 
 namespace strake::fitting {
 namespace {

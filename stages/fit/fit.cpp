@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "common/geometry/carry_attributes.h"
+#include "common/geometry/patch_fill/mendable_crossings.h"
+#include "common/geometry/patch_fill/refill_crossing.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/surface_distance/surface_distance.h"
 #include "stages/fit/block_system.h"
@@ -104,6 +106,11 @@ class Fit {
       measure();
     }
     return moved;
+  }
+
+  /// Makes crossing faces of a result with these places anew. \return number of faces
+  Index refill(const TriMesh& mesh, QuadMesh& quads) const {
+    return refill_crossing_faces(mesh, surface_, quads, deviation_.largest());
   }
 
   /// Integral of the squared distance over result and surface.
@@ -227,10 +234,17 @@ FitResult fit_vertices(const TriMesh& mesh, const PrincipalField* field, const Q
   for (std::size_t v = 0; v < quads.mesh.positions.size(); ++v) {
     moved = std::max(moved, (result.quads.mesh.positions[v] - quads.mesh.positions[v]).norm());
   }
-  const Index divided = fit.is_tangled() ? 0 : fitting::divide_crossing_faces(result.quads.mesh);
+  Index divided = 0;
+  Index refilled = 0;
+  if (!fit.is_tangled() &&
+      !mendable_crossings(result.quads.mesh, result.quads.mesh.positions).empty()) {
+    divided = fitting::divide_crossing_faces(result.quads.mesh);
+    refilled = fit.refill(mesh, result.quads);
+  }
   result.quads.mesh.attributes = carry_attributes(mesh, result.quads.mesh, result.quads.provenance);
   result.report.set("fit.parted_vertices", std::int64_t{parted});
   result.report.set("fit.divided_faces", std::int64_t{divided});
+  result.report.set("fit.refilled_faces", std::int64_t{refilled});
   result.report.set("fit.rounds", rounds);
   result.report.set("fit.rms_ratio", before > 0 ? std::sqrt(fit.error() / before) : 1.0);
   result.report.set("fit.longest_move", moved);

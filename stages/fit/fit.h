@@ -29,10 +29,11 @@ struct FitResult {
 /// worth as much as ten times the present RMS distance. Vertices on feature and boundary lines
 /// slide along them, corners stay (vertex_places.h). A step is taken only where the sum falls, and
 /// leaves out vertices around which faces would become concave, thin, turned over, or cross others
-/// (face_guard.h).
+/// (face_guard.h). At the end faces that cross others are moved apart, divided, or made anew with
+/// those around (move_apart.h, divide_crossing.h, refill_crossing.h).
 /// \param field  nullptr: lines of edges only keep straight and even
 /// \pre `quads` was made from `mesh`, and so was `field`
-/// \return the same faces but for divided ones; provenance with the new feet; deterministic for any
+/// \return the same faces but for those; provenance with the new feet; deterministic for any
 /// thread count Cost O(faces of the result * log faces of the mesh) per round.
 FitResult fit_vertices(const TriMesh& mesh, const PrincipalField* field, const QuadMesh& quads,
                        const FitOptions& options, Observer& observer);

@@ -9,9 +9,8 @@
 #include <vector>
 
 #include "common/geometry/face_crossings/box_tree.h"
-#include "common/geometry/face_crossings/face_crossings.h"
-#include "common/geometry/poly_topology/face_shape.h"
-#include "stages/fit/mendable_crossings.h"
+#include "common/geometry/face_crossings/placed_face.h"
+#include "common/geometry/patch_fill/mendable_crossings.h"
 
 namespace strake::fitting {
 namespace {
@@ -22,18 +21,6 @@ constexpr std::array<double, 5> kShares = {0.1, 0.25, 0.5, 0.75, 1};  ///< of th
 /// By how much a vertex may rise over the surface each time that all are tried, as a share of its
 /// shortest edge: not at first, so that it is the sheet that sticks out that moves.
 constexpr std::array<double, 8> kRises = {0.05, 0.05, 0.05, 0.05, 0.5, 0.5, 0.5, 0.5};
-
-struct Shape {
-  BoxTree::Box box;
-  std::vector<std::array<Vec3, 3>> triangles;
-};
-
-bool cross(const Shape& a, const Shape& b) {
-  return a.box.intersects(b.box) && std::ranges::any_of(a.triangles, [&](const auto& one) {
-           return std::ranges::any_of(
-               b.triangles, [&](const auto& other) { return triangles_cross(one, other); });
-         });
-}
 
 class MoveApart {
  public:
@@ -78,43 +65,36 @@ class MoveApart {
     return boxes;
   }
 
-  [[nodiscard]] Shape shape(Index face) const {
-    Shape shape{box(face), {}};
-    std::vector<std::array<Index, 3>> triangles;
-    triangulate_face(places_.positions(), mesh_.face(face), triangles);
-    for (const auto& [a, b, c] : triangles) {
-      shape.triangles.push_back(
-          {places_.positions()[a], places_.positions()[b], places_.positions()[c]});
-    }
-    return shape;
+  [[nodiscard]] PlacedFace placed(Index face) const {
+    return placed_face(places_.positions(), mesh_.face(face));
   }
 
   /// The faces that those around a vertex may come to touch when it moves by up to `reach`.
-  [[nodiscard]] std::vector<Shape> shapes_near(Index v, double reach) const {
+  [[nodiscard]] std::vector<PlacedFace> faces_near(Index v, double reach) const {
     BoxTree::Box around(places_.positions()[v]);
     around.min().array() -= reach;
     around.max().array() += reach;
     for (const Index f : faces_of_[v]) around.extend(box(f));
-    std::vector<Shape> shapes;
+    std::vector<PlacedFace> faces;
     const auto add = [&](Index f) {
       const bool is_around = std::ranges::find(faces_of_[v], f) != faces_of_[v].end();
-      if (!is_around && box(f).intersects(around)) shapes.push_back(shape(f));
+      if (!is_around && box(f).intersects(around)) faces.push_back(placed(f));
     };
     // The tree holds the places at the start: what has moved since is looked at in any case.
     for (const Index f : moved_) add(f);
     tree_.visit_touching(around, [&](Index f) {
       if (is_moved_[f] == 0) add(f);
     });
-    return shapes;
+    return faces;
   }
 
   /// Pairs of crossing faces of which one at least has this vertex.
-  [[nodiscard]] std::size_t count_around(Index v, const std::vector<Shape>& others) const {
+  [[nodiscard]] std::size_t count_around(Index v, const std::vector<PlacedFace>& others) const {
     std::size_t count = 0;
-    std::vector<Shape> own;
+    std::vector<PlacedFace> own;
     for (const Index f : faces_of_[v]) {
-      const Shape face = shape(f);
-      const auto crosses = [&](const Shape& other) { return cross(face, other); };
+      const PlacedFace face = placed(f);
+      const auto crosses = [&](const PlacedFace& other) { return faces_cross(face, other); };
       count += std::ranges::count_if(own, crosses) + std::ranges::count_if(others, crosses);
       own.push_back(face);
     }
@@ -155,7 +135,7 @@ class MoveApart {
   /// Moves a vertex to where the faces around it cross the fewest others. \return whether it did
   bool improve(Index v, double rise) {
     const Ways ways = ways_from(v);
-    const std::vector<Shape> others = shapes_near(v, kShares.back() * ways.longest);
+    const std::vector<PlacedFace> others = faces_near(v, kShares.back() * ways.longest);
     const std::size_t before = count_around(v, others);
     if (before == 0) return false;
     const VertexPlaces::State start = places_.state(v);

@@ -17,6 +17,7 @@
 #include "common/geometry/cell_error/cell_error.h"
 #include "common/geometry/cell_error/tolerance_check.h"
 #include "common/geometry/face_crossings/face_crossings.h"
+#include "common/geometry/patch_fill/refill_crossing.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_topology.h"
 #include "stages/refine/split_cells.h"
@@ -46,6 +47,8 @@ constexpr std::size_t kFewPlaces = 100;
 constexpr std::int64_t kRoundsOfCount = 4;
 /// Times that cells are left out because of what dividing them would do.
 constexpr int kMostRetreats = 8;
+/// Times that faces are made anew: where that is beyond the tolerance they stay the next time.
+constexpr int kMostRefills = 4;
 /// Vertices that dividing a cell gives, about.
 constexpr double kVerticesPerCell = 1.5;
 
@@ -65,8 +68,8 @@ class Refinement {
   }
 
   [[nodiscard]] const QuadMesh& quads() const { return quads_; }
-  /// Goes back to an earlier result.
-  void take_back(QuadMesh quads) { quads_ = std::move(quads); }
+  /// Goes on from another result.
+  void take(QuadMesh quads) { quads_ = std::move(quads); }
 
   /// Puts vertices that are farther than this off the surface back onto it.
   void put_back(const SurfaceDistance& input, double tolerance) {
@@ -286,6 +289,19 @@ std::string describe(std::vector<Excess> excess, const TriMesh& mesh, double tol
   return text;
 }
 
+/// Makes faces that cross anew where the tolerance allows it.
+void refill(const TriMesh& mesh, const SurfaceDistance& input, Refinement& refinement,
+            double tolerance) {
+  std::vector<Vec3> spared;
+  for (int i = 0; i < kMostRefills; ++i) {
+    QuadMesh refilled = refinement.quads();
+    if (refill_crossing_faces(mesh, input, refilled, tolerance, spared) == 0) return;
+    const std::vector<Excess> excess = check_tolerance(ComparedSurfaces(mesh, refilled), tolerance);
+    if (excess.empty()) return refinement.take(std::move(refilled));
+    for (const Excess& e : excess) spared.push_back(e.place);
+  }
+}
+
 /// Divides cells until all are within the tolerance. \return the rounds it took
 std::int64_t refine_to_tolerance(const TriMesh& mesh, Refinement& refinement,
                                  const RefineOptions& options, Observer& observer, Report& report) {
@@ -299,7 +315,10 @@ std::int64_t refine_to_tolerance(const TriMesh& mesh, Refinement& refinement,
     const ComparedSurfaces surfaces(mesh, refinement.quads());
     std::vector<Excess> excess = check_tolerance(surfaces, tolerance);
     report.set("refine.places_beyond", excess.size());
-    if (excess.empty()) return round;
+    if (excess.empty()) {
+      refill(mesh, surfaces.input(), refinement, tolerance);
+      return round;
+    }
     fewest = std::min(fewest, excess.size());
     if (round == options.rounds || excess.size() > kHopeless * std::max(fewest, kFewPlaces)) {
       if (options.partly) return round;
@@ -366,7 +385,7 @@ void divide_without_faults(Refinement& refinement, const ComparedSurfaces& surfa
     refinement.divide(surfaces, {targets.begin(), last}, std::numeric_limits<double>::infinity());
     const std::vector<std::uint8_t> faulty = vertices_of_faults(refinement.quads().mesh, known);
     if (std::ranges::find(faulty, 1) == faulty.end()) return;
-    refinement.take_back(before);
+    refinement.take(before);
     const auto is_to_blame = [&](const Target& t) {
       return has_any(before.mesh.face(t.face), faulty);
     };

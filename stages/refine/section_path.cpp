@@ -74,13 +74,6 @@ SurfacePoint split_of(const TriMesh& mesh, const Way& way) {
 
 }  // namespace
 
-Vec3 place_of(const TriMesh& mesh, const SurfacePoint& point) {
-  const auto& corners = mesh.faces[point.face];
-  return point.barycentric[0] * mesh.positions[corners[0]] +
-         point.barycentric[1] * mesh.positions[corners[1]] +
-         point.barycentric[2] * mesh.positions[corners[2]];
-}
-
 std::vector<Index> faces_around(const TriMesh& mesh, const SurfacePoint& point) {
   for (int i = 0; i < 3; ++i) {
     if (point.barycentric[i] < 1 - kOnEdge) continue;

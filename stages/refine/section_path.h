@@ -1,21 +1,12 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <vector>
 
 #include "common/core/tri_mesh.h"
+#include "common/geometry/surface_point.h"
 
 namespace strake {
-
-/// A point of the input surface.
-struct SurfacePoint {
-  Index face = kNone;
-  std::array<double, 3> barycentric = {0, 0, 0};
-};
-
-/// Relative to the mesh's origin.
-Vec3 place_of(const TriMesh& mesh, const SurfacePoint& point);
 
 /// The faces that hold a point: one, two of an edge, or all around a vertex.
 std::vector<Index> faces_around(const TriMesh& mesh, const SurfacePoint& point);

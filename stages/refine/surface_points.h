@@ -1,12 +1,11 @@
 #pragma once
 
-#include <vector>
-
 #include "common/core/poly_mesh.h"
 #include "common/core/tri_mesh.h"
 #include "common/geometry/mesh_measures.h"
 #include "common/geometry/surface_distance/surface_distance.h"
-#include "stages/refine/section_path.h"
+#include "common/geometry/surface_lines.h"
+#include "common/geometry/surface_point.h"
 
 namespace strake {
 
@@ -24,29 +23,16 @@ class SurfacePoints {
                                      const Vec3& middle, const Vec3& normal) const;
   /// Whether a point lies on a feature or boundary line.
   [[nodiscard]] bool is_on_line(const SurfacePoint& point) const {
-    return !on_lines(point).empty();
+    return !lines_.places(point).empty();
   }
 
  private:
   /// The surface point nearest to a place, of those that face the same way, if there are any: not
   /// of the other side of a thin wall.
   [[nodiscard]] SurfacePoint nearest(const Vec3& p, const Vec3& normal) const;
-  /// A point of a feature or boundary line.
-  struct LinePlace {
-    Index halfedge = kNone;  ///< of the line
-    double lambda = 0;       ///< along it
-  };
-
-  /// Half-edges of lines on which a point lies; at a vertex all that leave it.
-  [[nodiscard]] std::vector<LinePlace> on_lines(const SurfacePoint& point) const;
-  /// The way along one line, in its sense, from a place to a point of the surface.
-  [[nodiscard]] std::vector<LinePlace> way(const LinePlace& from, const SurfacePoint& to,
-                                           double longest) const;
-  /// The half-edge by which the line of `h` goes on from its end; kNone at corners.
-  [[nodiscard]] Index next_on_line(Index h) const;
-  [[nodiscard]] Vec3 place(const LinePlace& at) const;
 
   const TriMesh& mesh_;
+  SurfaceLines lines_;
   SurfaceDistance surface_;
   FaceNormals normals_;
 };

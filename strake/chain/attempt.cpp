@@ -13,14 +13,11 @@ namespace {
 
 /// Factor on the distances of lines around faces that cross.
 constexpr double kCloser = 0.7;
-constexpr Index kMostAttempts = 8;
+constexpr Index kMostAttempts = 5;
 /// Faces of all attempts together; one is made of any number.
 constexpr Index kMostFaces = 200000;
-/// Attempts that may leave more than half of the faces that cross. Whether the last few cross is
-/// chance, and worth more of them.
+/// Attempts that may leave more than half of the faces that cross.
 constexpr int kPatience = 3;
-constexpr int kPatienceForFew = 6;
-constexpr std::size_t kFewPlaces = 10;
 /// Where more faces cross the shape is finer than its lines all over.
 constexpr std::size_t kMostPlaces = 1000;
 
@@ -38,10 +35,9 @@ Attempt part_faces(const Attempt& first, Index faces, const std::function<Attemp
   Attempt best = first;
   Attempt last = first;
   bool is_last_best = true;
-  int failed = 0;
+  int patience = kPatience;
   const auto is_worth_it = [&] {
-    const int patience = best.places.size() <= kFewPlaces ? kPatienceForFew : kPatience;
-    return failed < patience && !best.places.empty() && best.places.size() <= kMostPlaces;
+    return patience > 0 && !best.places.empty() && best.places.size() <= kMostPlaces;
   };
   const Index attempts =
       std::clamp<Index>(kMostFaces / std::max<Index>(faces, 1), 1, kMostAttempts);
@@ -57,7 +53,7 @@ Attempt part_faces(const Attempt& first, Index faces, const std::function<Attemp
       is_last_best = false;
       break;
     }
-    if (last.misses_goal || 2 * last.places.size() > best.places.size()) ++failed;
+    if (last.misses_goal || 2 * last.places.size() > best.places.size()) --patience;
     is_last_best = !last.misses_goal && last.places.size() < best.places.size();
     if (is_last_best) best = last;
     if (last.places == before) break;  // lines are as close as they may be: all would be the same

@@ -14,18 +14,19 @@
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_topology.h"
 #include "common/geometry/samples/samples.h"
+#include "stages/refine/section_path.h"
 #include "stages/refine/split_cells.h"
 #include "stages/refine/surface_points.h"
 #include "stages/refine/way_split.h"
 #include "tests/support/chain.h"
-#include "tests/unit/refine/result_cases.h"
+#include "tests/support/result_cases.h"
 
 namespace strake {
 namespace {
 
-using refine_test::bent_strip;
-using refine_test::Case;
-using refine_test::grid;
+using support::bent_strip;
+using support::Case;
+using support::grid;
 
 RefineOptions within(double tolerance) {
   RefineOptions options;
@@ -341,6 +342,19 @@ TEST(SurfacePoints, MiddlesStayOnTheWayOverTheSurface) {
   EXPECT_NEAR(
       (place_of(c.mesh, points.between(foot(5), foot(8), chord, Vec3::UnitZ())) - chord).norm(), 0,
       1e-9);
+}
+
+TEST(RefineCells, UnfoldsFacesThatCrossWithinTheTolerance) {
+  Case c = grid(8, 8, [](double, double) { return 0.0; });
+  c.quads.mesh.positions[4 * 9 + 4] = Vec3(0.7, 0.54, 0);
+  const auto crossings = [](const PolyMesh& mesh) {
+    return find_crossing_faces(mesh.positions, triangulate_faces(mesh)).size();
+  };
+  ASSERT_GT(crossings(c.quads.mesh), 0u);
+  const QuadMesh result = refined(c, within(0.01));
+  EXPECT_EQ(crossings(result.mesh), 0u);
+  EXPECT_TRUE(check_tolerance(ComparedSurfaces(c.mesh, result), 0.01).empty());
+  EXPECT_NEAR(total_area(result.mesh), 1, 1e-12);
 }
 
 }  // namespace

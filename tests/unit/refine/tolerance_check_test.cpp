@@ -7,14 +7,14 @@
 
 #include "common/geometry/cell_error/cell_error.h"
 #include "tests/support/mesh_support.h"
-#include "tests/unit/refine/result_cases.h"
+#include "tests/support/result_cases.h"
 
 namespace strake {
 namespace {
 
-using refine_test::bent_strip;
-using refine_test::Case;
-using refine_test::grid;
+using support::bent_strip;
+using support::Case;
+using support::grid;
 
 bool is_within(const Case& c, double tolerance) {
   return check_tolerance(ComparedSurfaces(c.mesh, c.quads), tolerance).empty();

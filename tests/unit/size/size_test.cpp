@@ -9,13 +9,13 @@
 #include "common/geometry/samples/samples.h"
 #include "stages/size/closer_near.h"
 #include "tests/support/chain.h"
-#include "tests/unit/refine/result_cases.h"
+#include "tests/support/result_cases.h"
 
 namespace strake {
 namespace {
 
-using refine_test::Case;
-using refine_test::grid;
+using support::Case;
+using support::grid;
 
 constexpr double kUsed = 0.125;  // distance of the lines that the results below stand for
 

@@ -5,7 +5,7 @@
 #include "tests/support/mesh_support.h"
 
 /// Surfaces over the unit square, with results of a few square faces whose vertices lie on them.
-namespace strake::refine_test {
+namespace strake::support {
 
 struct Case {
   TriMesh mesh;
@@ -65,4 +65,4 @@ inline Case bent_strip(double k) {
   return grid(64, 1, [&](double x, double) { return k * x * (1 - x) / 2; });
 }
 
-}  // namespace strake::refine_test
+}  // namespace strake::support

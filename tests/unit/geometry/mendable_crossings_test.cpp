@@ -1,4 +1,4 @@
-#include "stages/fit/mendable_crossings.h"
+#include "common/geometry/patch_fill/mendable_crossings.h"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ PolyMesh crossed_squares(int n, int free) {
 }
 
 std::size_t mendable(const PolyMesh& mesh) {
-  return fitting::mendable_crossings(mesh, mesh.positions).size();
+  return mendable_crossings(mesh, mesh.positions).size();
 }
 
 TEST(MendableCrossings, AreFewOrInASmallShareOfTheFaces) {

@@ -1,4 +1,4 @@
-#include "stages/fit/mendable_crossings.h"
+#include "common/geometry/patch_fill/mendable_crossings.h"
 
 #include <algorithm>
 #include <set>
@@ -6,7 +6,7 @@
 #include "common/geometry/face_crossings/face_crossings.h"
 #include "common/geometry/poly_topology/face_shape.h"
 
-namespace strake::fitting {
+namespace strake {
 namespace {
 
 constexpr double kLargestShare = 0.1;
@@ -28,4 +28,4 @@ std::vector<std::array<Index, 2>> mendable_crossings(const PolyMesh& mesh,
   return pairs;
 }
 
-}  // namespace strake::fitting
+}  // namespace strake

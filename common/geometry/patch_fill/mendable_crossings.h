@@ -6,7 +6,7 @@
 #include "common/core/poly_mesh.h"
 #include "common/core/types.h"
 
-namespace strake::fitting {
+namespace strake {
 
 /// The pairs of faces that cross with the vertices at these places, the smaller face first,
 /// ascending. None where more than a tenth of the faces cross, in more than a hundred pairs, or
@@ -16,4 +16,4 @@ namespace strake::fitting {
 std::vector<std::array<Index, 2>> mendable_crossings(const PolyMesh& mesh,
                                                      const std::vector<Vec3>& positions);
 
-}  // namespace strake::fitting
+}  // namespace strake
