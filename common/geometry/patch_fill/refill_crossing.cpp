@@ -248,8 +248,10 @@ class Refilling {
   Polygon outline_of(const std::vector<Index>& part, Kept kept, std::vector<Index>& pinched) const {
     std::map<Index, Index> next;
     std::set<Index> vertices;
+    std::size_t sides = 0;
     for (const Index f : part) {
       for_sides(f, [&](Index a, Index b) {
+        ++sides;
         vertices.insert(a);
         const Index g = neighbour(a, b);
         const bool is_inside = g != kNone && std::ranges::binary_search(part, g);
@@ -266,6 +268,9 @@ class Refilling {
       outline.push_back(following->second);
     }
     if (outline.size() != next.size() || outline.size() < 3) return {};
+    // One outline does not make it a disk: it may have handles. Inner edges have two sides.
+    const std::size_t edges = (sides + outline.size()) / 2;
+    if (vertices.size() + part.size() != edges + 1) return {};
     const bool may_go = std::ranges::all_of(vertices, [&](Index v) {
       return is_touched_[v] == 0 && (next.contains(v) || may_be_lost(v, kept));
     });

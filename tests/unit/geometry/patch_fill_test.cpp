@@ -233,6 +233,52 @@ TEST(RefillCrossingFaces, KeepsFeatureLines) {
   for (const auto& [from, to] : ridge) EXPECT_EQ(to - from, kCell);
 }
 
+class RefillOfTori : public testing::TestWithParam<std::tuple<Index, Index>> {};
+
+TEST_P(RefillOfTori, KeepsHandles) {
+  // Rings around a few faces may be nearly all of a coarse torus, with one outline, and no disk.
+  const auto [columns, rows] = GetParam();
+  PolyMesh triangles;
+  PolyMesh squares;
+  for (Index j = 0; j < rows; ++j) {
+    for (Index i = 0; i < columns; ++i) {
+      const double u = 2 * std::numbers::pi * i / columns;
+      const double v = 2 * std::numbers::pi * j / rows;
+      squares.positions.emplace_back((2 + std::cos(v)) * std::cos(u),
+                                     (2 + std::cos(v)) * std::sin(u), std::sin(v));
+      const auto vertex = [&, width = columns, height = rows](Index a, Index b) {
+        return (j + b) % height * width + (i + a) % width;
+      };
+      const std::array<Index, 4> face = {vertex(0, 0), vertex(1, 0), vertex(1, 1), vertex(0, 1)};
+      squares.add_face(face);
+      triangles.add_face(std::array<Index, 3>{face[0], face[1], face[2]});
+      triangles.add_face(std::array<Index, 3>{face[0], face[2], face[3]});
+    }
+  }
+  triangles.positions = squares.positions;
+  const TriMesh mesh = support::plain_tri_mesh(triangles);
+  const SurfaceDistance surface(mesh.positions, mesh.faces);
+  for (Index moved = 0; moved < squares.vertex_count(); ++moved) {
+    QuadMesh quads;
+    quads.mesh = squares;
+    for (Index v = 0; v < squares.vertex_count(); ++v) {
+      const Index h = mesh.vertex_out[v];
+      quads.provenance.face.push_back(TriMesh::face_of(h));
+      quads.provenance.barycentric.push_back({0, 0, 0});
+      quads.provenance.barycentric.back()[h % 3] = 1;
+      quads.provenance.lines.push_back({kNone, kNone});
+    }
+    quads.mesh.positions[moved] = -1.0 * squares.positions[moved];
+    refill_crossing_faces(mesh, surface, quads, 10);
+    const PolyTopology topology = analyse(quads.mesh);
+    EXPECT_TRUE(topology.is_oriented_manifold()) << moved;
+    EXPECT_EQ(topology.euler, 0) << moved;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, RefillOfTori,
+                         testing::Combine(testing::Range(4, 9), testing::Range(4, 9)));
+
 TEST(SurfaceLines, LeadFromPointToPoint) {
   Grid grid(roof);
   grid.mark_row(4);
