@@ -3,7 +3,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace strake {
@@ -24,39 +23,48 @@ std::pair<Index, Index> node_counts(Index boxes) {
 
 }  // namespace
 
-BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
-  std::iota(order_.begin(), order_.end(), Index{0});
-  if (boxes_.empty()) return;
-  const auto count = static_cast<Index>(boxes_.size());
+BoxTree::BoxTree(const std::vector<Box>& boxes) : boxes_(boxes.size()), order_(boxes.size()) {
+  if (boxes.empty()) return;
+  std::vector<Middle> middles(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    middles[i] = {boxes[i].min() + boxes[i].max(), static_cast<Index>(i)};
+  }
+  const auto count = static_cast<Index>(boxes.size());
   nodes_.resize(node_counts(count).first);
-  build(0, 0, count);
+  build(0, 0, count, middles, boxes);
+  for (Index at = 0; at < static_cast<Index>(nodes_.size()); ++at) {
+    if (nodes_[at].right == kNone) leaves_.push_back(at);
+  }
 }
 
 /// Builds the node `at`, and those after it that are below it.
-void BoxTree::build(Index at, Index begin, Index end) {
-  Box whole;
-  Box middles;
-  for (Index k = begin; k < end; ++k) {
-    whole.extend(boxes_[order_[k]]);
-    middles.extend(boxes_[order_[k]].center());
+void BoxTree::build(Index at, Index begin, Index end, std::vector<Middle>& middles,
+                    const std::vector<Box>& boxes) {
+  Node& node = nodes_[at];
+  node.begin = begin;
+  node.end = end;
+  if (end - begin <= kLeafSize) {
+    for (Index k = begin; k < end; ++k) {
+      order_[k] = middles[k].box;
+      boxes_[k] = boxes[order_[k]];
+      node.box.extend(boxes_[k]);
+    }
+    return;
   }
-  nodes_[at].box = whole;
-  nodes_[at].begin = begin;
-  nodes_[at].end = end;
-  if (end - begin <= kLeafSize) return;
+  Box extent;
+  for (Index k = begin; k < end; ++k) extent.extend(middles[k].at);
   Index axis = 0;
-  middles.sizes().maxCoeff(&axis);
+  extent.sizes().maxCoeff(&axis);
   const Index half = begin + (end - begin) / 2;
-  std::nth_element(order_.begin() + begin, order_.begin() + half, order_.begin() + end,
-                   [&](Index a, Index b) {
-                     const double x = boxes_[a].min()[axis] + boxes_[a].max()[axis];
-                     const double y = boxes_[b].min()[axis] + boxes_[b].max()[axis];
-                     return std::pair(x, a) < std::pair(y, b);
+  std::nth_element(middles.begin() + begin, middles.begin() + half, middles.begin() + end,
+                   [&](const Middle& a, const Middle& b) {
+                     return a.at[axis] != b.at[axis] ? a.at[axis] < b.at[axis] : a.box < b.box;
                    });
   const Index right = at + 1 + node_counts(half - begin).first;
-  nodes_[at].right = right;
+  node.right = right;
   const auto build_child = [&](int child) {
-    child == 0 ? build(at + 1, begin, half) : build(right, half, end);
+    child == 0 ? build(at + 1, begin, half, middles, boxes)
+               : build(right, half, end, middles, boxes);
   };
   if (end - begin < kLeastForTask) {
     build_child(0);
@@ -64,6 +72,7 @@ void BoxTree::build(Index at, Index begin, Index end) {
   } else {
     tbb::parallel_for(0, 2, build_child);
   }
+  node.box = nodes_[at + 1].box.merged(nodes_[right].box);
 }
 
 }  // namespace strake

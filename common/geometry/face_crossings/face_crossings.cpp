@@ -1,5 +1,6 @@
 #include "common/geometry/face_crossings/face_crossings.h"
 
+#include <tbb/combinable.h>
 #include <tbb/parallel_for.h>
 
 #include <Eigen/Geometry>
@@ -164,40 +165,42 @@ std::vector<std::array<Index, 2>> find_crossing_faces(const std::vector<Vec3>& p
 std::vector<std::array<Index, 2>> find_crossing_faces(
     const std::vector<Vec3>& positions, const FaceTriangles& triangles,
     const std::vector<std::uint8_t>& wanted, const std::vector<std::array<Index, 2>>& known) {
-  std::vector<std::uint8_t> is_seen(triangles.corners.size());
-  const auto shape_of = [&](std::size_t t) -> Triangle {
+  const auto shape_of = [&](Index t) -> Triangle {
     const auto& [a, b, c] = triangles.corners[t];
     return {positions[a], positions[b], positions[c]};
   };
-  tbb::parallel_for(std::size_t{0}, is_seen.size(),
-                    [&](std::size_t t) { is_seen[t] = has_area(shape_of(t)) ? 1 : 0; });
-  std::vector<Triangle> shapes;
-  std::vector<Index> faces;
+  const auto box_of = [&](Index t) {
+    const auto& [a, b, c] = triangles.corners[t];
+    BoxTree::Box box(positions[a]);
+    return box.extend(positions[b]).extend(positions[c]);
+  };
+  std::vector<Index> inside;   // triangles in the tree
+  std::vector<Index> outside;  // the others
   std::vector<BoxTree::Box> boxes;
-  for (std::size_t t = 0; t < triangles.corners.size(); ++t) {
-    if (is_seen[t] == 0) continue;
-    const Triangle& shape = shapes.emplace_back(shape_of(t));
-    faces.push_back(triangles.face[t]);
-    boxes.emplace_back(shape[0]);
-    boxes.back().extend(shape[1]).extend(shape[2]);
+  for (Index t = 0; t < static_cast<Index>(triangles.face.size()); ++t) {
+    const bool is_wanted = wanted[triangles.face[t]] != 0;
+    (is_wanted ? inside : outside).push_back(t);
+    if (is_wanted) boxes.push_back(box_of(t));
   }
-  const BoxTree tree(std::move(boxes));
-  std::vector<std::vector<std::array<Index, 2>>> found(shapes.size());
-  tbb::parallel_for(Index{0}, static_cast<Index>(shapes.size()), [&](Index i) {
-    if (wanted[faces[i]] == 0) return;
-    tree.visit_touching(tree.box(i), [&](Index j) {
-      const bool is_met_from_there = j <= i && wanted[faces[j]] != 0;
-      if (is_met_from_there || faces[i] == faces[j]) return;
-      const std::array<Index, 2> pair = {std::min(faces[i], faces[j]),
-                                         std::max(faces[i], faces[j])};
-      if (!std::binary_search(known.begin(), known.end(), pair) &&
-          triangles_cross(shapes[i], shapes[j])) {
-        found[i].push_back(pair);
-      }
-    });
+  const BoxTree tree(boxes);
+  using Pairs = std::vector<std::array<Index, 2>>;
+  tbb::combinable<Pairs> found;
+  const auto test = [&](Index s, Index t) {
+    const auto [less, more] = std::minmax(triangles.face[s], triangles.face[t]);
+    if (less != more && !std::binary_search(known.begin(), known.end(), std::array{less, more}) &&
+        triangles_cross(shape_of(s), shape_of(t))) {
+      found.local().push_back({less, more});
+    }
+  };
+  tbb::parallel_for(Index{0}, tree.part_count(), [&](Index part) {
+    tree.visit_touching_pairs(part, [&](Index i, Index j) { test(inside[i], inside[j]); });
   });
-  std::vector<std::array<Index, 2>> pairs;
-  for (const auto& list : found) pairs.insert(pairs.end(), list.begin(), list.end());
+  tbb::parallel_for(std::size_t{0}, outside.size(), [&](std::size_t k) {
+    tree.visit_touching(box_of(outside[k]), [&](Index i) { test(inside[i], outside[k]); });
+  });
+  Pairs pairs;
+  found.combine_each(
+      [&](const Pairs& some) { pairs.insert(pairs.end(), some.begin(), some.end()); });
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   return pairs;

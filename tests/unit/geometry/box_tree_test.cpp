@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <random>
 #include <vector>
 
@@ -38,6 +39,26 @@ TEST(BoxTree, FindsWhatLookingAtAllBoxesFinds) {
       std::sort(found.begin(), found.end());
       EXPECT_EQ(found, touching) << count;
     }
+  }
+}
+
+TEST(BoxTree, FindsPairsOnceThatLookingAtAllOfThemFinds) {
+  for (const int count : {0, 1, 2, 4, 5, 6, 7, 9, 17, 100, 1001}) {
+    const std::vector<BoxTree::Box> boxes = random_boxes(count);
+    std::vector<std::array<Index, 2>> found;
+    const BoxTree tree(boxes);
+    for (Index part = 0; part < tree.part_count(); ++part) {
+      tree.visit_touching_pairs(
+          part, [&](Index i, Index j) { found.push_back({std::min(i, j), std::max(i, j)}); });
+    }
+    std::vector<std::array<Index, 2>> touching;
+    for (Index i = 0; i < count; ++i) {
+      for (Index j = i + 1; j < count; ++j) {
+        if (boxes[i].intersects(boxes[j])) touching.push_back({i, j});
+      }
+    }
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(found, touching) << count;
   }
 }
 
