@@ -55,8 +55,8 @@ constexpr int kAllRounds = std::numeric_limits<int>::max();
 /// Scale on distances that were those of lines, and have theirs in them. Where a count is wanted
 /// the stage scales them to it first, and the scale found for that stays.
 constexpr const char* kScaleOfLines = "1";
-/// Rounds of fitting before errors are measured: enough to see where they will stay.
-constexpr int kMeasuringFitRounds = 3;
+/// Rounds of fitting before the worst cells are divided: enough to see where errors will stay.
+constexpr int kRoundsBeforeDividing = 3;
 
 /// How many vertices or faces lines are to give.
 struct LineAim {
@@ -93,19 +93,22 @@ void trace_mesh_and_fit(Session& session, const GoalStages& stages) {
   keep_fitted(session, stages);
 }
 
-/// Fits as many rounds as show where errors will stay.
-void fit_for_measuring(Session& session, const GoalStages& stages) {
+/// Fits as many rounds as show which cells are worst.
+void fit_before_dividing(Session& session, const GoalStages& stages) {
   const Option& rounds = stages.fit.option("fit-rounds");
   const std::string all_rounds = rounds.value();
-  rounds.parse_into(std::to_string(std::min(kMeasuringFitRounds, std::stoi(all_rounds))));
+  rounds.parse_into(std::to_string(std::min(kRoundsBeforeDividing, std::stoi(all_rounds))));
   session.run(stages.fit);
   rounds.parse_into(all_rounds);
 }
 
 /// Wants other distances between lines where the present result is too far from the surface, and
 /// corrects the scale of all of them by the count.
+///
+/// Errors are those of vertices on the surface: where they are large they stay so when vertices
+/// are fitted.
 void feed_back(Session& session, const GoalStages& stages, const LineAim& aim) {
-  fit_for_measuring(session, stages);
+  session.provide_as("fitted", session.get<QuadMesh>("quads"), "quads");
   session.run(stages.size);
   const Option& scale = stages.trace.option("spacing-scale");
   const double excess = kFeedbackExcess *
@@ -310,7 +313,7 @@ Attempt fit_to_count(Session session, const GoalStages& stages, const LineAim& a
   const std::int64_t given = count_of(session, "quads", aim.counted);
   const double missing = 1 - static_cast<double>(given) / static_cast<double>(aim.wanted);
   if (aim.left > 0 || (missing > CountSearch::kMostMissing && !only_quads(stages))) {
-    fit_for_measuring(session, stages);
+    fit_before_dividing(session, stages);
     const std::int64_t vertices =
         count_of(session, "fitted", Counted::vertices) + to_add(given, aim);
     stages.refine.option("refine-vertices").parse_into(std::to_string(vertices));
