@@ -400,9 +400,9 @@ std::int64_t refine_to_count(const TriMesh& mesh, Refinement& refinement,
   for (; round < std::min(options.rounds, kRoundsOfCount); ++round) {
     observer.report("dividing cells", double(round) / double(kRoundsOfCount));
     const std::int64_t missing = *options.vertices - refinement.quads().mesh.vertex_count();
-    const ComparedSurfaces surfaces(mesh, refinement.quads());
     const auto cells = static_cast<double>(missing) / kVerticesPerCell;
     if (cells < 1) break;
+    const ComparedSurfaces surfaces(mesh, refinement.quads());
     divide_without_faults(refinement, surfaces, cells_by_distance(surfaces),
                           static_cast<std::size_t>(cells));
   }

@@ -19,6 +19,9 @@ namespace {
 constexpr double kFeedback = 0.33;
 /// With a density, which says by itself how many vertices go where: nearly all at once.
 constexpr double kFeedbackOfDensity = 0.4;
+/// Cells are averaged over their neighbours, so that few samples of each do; not with a density,
+/// which a result follows by the few lines that it is more or less.
+constexpr CellSampling kFewSamples = {.rows = 3, .input_step = 1.0 / 3};
 /// Limits of the change of a distance.
 constexpr double kLargestShrink = 0.6;
 constexpr double kLargestGrowth = 1.25;
@@ -96,7 +99,8 @@ SizeResult size_from_errors(const TriMesh& mesh, const PrincipalField& field, co
                             const QuadMesh& quads, const DensityField* density,
                             const SizeOptions& options, Observer& observer) {
   observer.report("measuring distances", 0);
-  const ErrorMap errors = measure_cells(ComparedSurfaces(mesh, quads));
+  const CellSampling sampling = density != nullptr ? CellSampling{} : kFewSamples;
+  const ErrorMap errors = measure_cells(ComparedSurfaces(mesh, quads), sampling);
   const Averaged cells = averaged_errors(quads.mesh, errors, mesh.diagonal);
   const std::size_t wedges = mesh.wedge_vertex.size();
   std::vector<double> log_error(wedges);

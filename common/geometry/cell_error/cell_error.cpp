@@ -10,10 +10,6 @@
 namespace strake {
 namespace {
 
-/// Rows of samples on a triangle of the result.
-constexpr int kRows = 5;
-/// Samples of the input lie this share of a mean cell's edge apart.
-constexpr double kInputStep = 0.2;
 constexpr int kMostInputRows = 64;
 
 using Triangle = std::array<Index, 3>;
@@ -104,7 +100,7 @@ class BendFit {
 };
 
 /// Measures from one face of the result to the input.
-Sums measure_face(const ComparedSurfaces& surfaces, Index f, Mat3& bend) {
+Sums measure_face(const ComparedSurfaces& surfaces, Index f, int rows, Mat3& bend) {
   Sums sums;
   const std::vector<Vec3>& positions = surfaces.positions();
   const std::span<const Index> face = surfaces.faces().face(f);
@@ -121,8 +117,8 @@ Sums measure_face(const ComparedSurfaces& surfaces, Index f, Mat3& bend) {
   BendFit fit(centre, has_plane ? normal : Vec3(Vec3::UnitX()));
   for (Index t = surfaces.first_triangle(f); t < surfaces.first_triangle(f + 1); ++t) {
     const Triangle& corners = surfaces.triangles().corners[t];
-    const double weight = area(positions, corners) / place_count(kRows);
-    for_each_place(kRows, [&](const Barycentric& at) {
+    const double weight = area(positions, corners) / place_count(rows);
+    for_each_place(rows, [&](const Barycentric& at) {
       const Vec3 p = place(positions, corners, at);
       const ClosestPoint foot = surfaces.input().closest_near(p, guess);
       guess = foot.triangle;
@@ -138,7 +134,8 @@ Sums measure_face(const ComparedSurfaces& surfaces, Index f, Mat3& bend) {
 
 /// Measures from the input to the faces of the result nearest to its samples: its vertices, and a
 /// grid of places in faces that are larger than the distance of samples.
-std::vector<Sums> measure_input(const ComparedSurfaces& surfaces, std::vector<Index>& vertex_cell) {
+std::vector<Sums> measure_input(const ComparedSurfaces& surfaces, double input_step,
+                                std::vector<Index>& vertex_cell) {
   struct Hit {
     Index triangle = kNone;
     double distance = 0;
@@ -155,7 +152,7 @@ std::vector<Sums> measure_input(const ComparedSurfaces& surfaces, std::vector<In
     total += areas[f];
   }
   const auto cells = static_cast<std::size_t>(surfaces.faces().face_count());
-  const double step = kInputStep * std::sqrt(total / static_cast<double>(cells));
+  const double step = input_step * std::sqrt(total / static_cast<double>(cells));
   const auto rows_of = [&](std::size_t f) {
     const double rows = std::ceil(std::sqrt(2 * areas[f]) / step);
     return static_cast<int>(std::clamp(rows, 1.0, double(kMostInputRows)));
@@ -210,19 +207,20 @@ std::vector<Sums> measure_input(const ComparedSurfaces& surfaces, std::vector<In
 
 Mat3 cell_bend(const ComparedSurfaces& surfaces, Index face) {
   Mat3 bend;
-  measure_face(surfaces, face, bend);
+  measure_face(surfaces, face, CellSampling{}.rows, bend);
   return bend;
 }
 
-ErrorMap measure_cells(const ComparedSurfaces& surfaces) {
+ErrorMap measure_cells(const ComparedSurfaces& surfaces, const CellSampling& sampling) {
   const auto cells = static_cast<std::size_t>(surfaces.faces().face_count());
   ErrorMap map;
   map.cells.resize(cells);
   std::vector<Sums> to_input(cells);
   tbb::parallel_for(std::size_t{0}, cells, [&](std::size_t f) {
-    to_input[f] = measure_face(surfaces, static_cast<Index>(f), map.cells[f].bend);
+    to_input[f] = measure_face(surfaces, static_cast<Index>(f), sampling.rows, map.cells[f].bend);
   });
-  const std::vector<Sums> from_input = measure_input(surfaces, map.vertex_cell);
+  const std::vector<Sums> from_input =
+      measure_input(surfaces, sampling.input_step, map.vertex_cell);
   Sums all_to;
   Sums all_from;
   for (std::size_t f = 0; f < cells; ++f) {

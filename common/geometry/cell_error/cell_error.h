@@ -24,12 +24,18 @@ struct ErrorMap {
   double largest = 0;              ///< model units, both ways
 };
 
+/// How densely a result is measured.
+struct CellSampling {
+  int rows = 5;  ///< of samples on a triangle of the result: rows (rows + 1) / 2; positive
+  double input_step = 0.2;  ///< from sample to sample on the input, in edges of a mean cell
+};
+
 /// Measures a result against its surface face by face.
 ///
 /// Samples: a grid on every triangle of the result and on every face of the input, fine against the
 /// cells, and all vertices of both. Deterministic for any thread count.
 /// Cost O(samples log faces), parallel.
-ErrorMap measure_cells(const ComparedSurfaces& surfaces);
+ErrorMap measure_cells(const ComparedSurfaces& surfaces, const CellSampling& sampling = {});
 
 /// The member `bend` of one face's CellError alone.
 Mat3 cell_bend(const ComparedSurfaces& surfaces, Index face);
