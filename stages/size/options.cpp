@@ -7,8 +7,9 @@ OptionList SizeOptions::declare() {
       {.name = "size-tolerance",
        .target = &tolerance,
        .unit = "length",
-       .help = "Error to aim at; without it the mean error, so that errors become even.",
-       .min = 1e-6,
+       .help = "Error to aim at where it is exceeded; without it the mean error, so that errors "
+               "become even.",
+       .min = 1e-7,
        .max = 0.2},
       {.name = "feedback",
        .target = &feedback,

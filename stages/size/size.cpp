@@ -124,9 +124,11 @@ SizeResult size_from_errors(const TriMesh& mesh, const PrincipalField& field, co
 
   SizeResult result;
   result.size.mesh_id = mesh.id;
+  // Under a tolerance nothing is won where errors are small already.
+  const double largest_growth = options.tolerance ? 1 : kLargestGrowth;
   const auto change = [&](double error, double share) {
     const double factor = std::exp(feedback * (goal - error - std::log(2 * share)));
-    return std::clamp(factor, kLargestShrink, kLargestGrowth);
+    return std::clamp(factor, kLargestShrink, largest_growth);
   };
   for (std::size_t w = 0; w < wedges; ++w) {
     const double along = lines.spacing_along_min[w];

@@ -35,9 +35,9 @@ OptionList Chain::declare(std::optional<std::int64_t>& rounds) {
   return {{.name = "feedback-rounds",
            .target = &rounds,
            .unit = "",
-           .help =
-               "Times that lines are traced again to even out errors, where a count is wanted; 1, "
-               "with a density as many as it takes.",
+           .help = "Times that lines are traced again by errors measured: to even them out where a "
+                   "count is wanted, closer where they are too large for a tolerance. 1; with a "
+                   "density and a count as many as it takes.",
            .min = 0,
            .max = 20}};
 }
@@ -66,7 +66,7 @@ std::string Chain::reach_goal(Session& session) const {
   }
   const std::string tolerance = trace.option("tolerance").value();
   if (tolerance.empty()) return follow_spacing(session, goal_stages);
-  return meet_tolerance(session, goal_stages, tolerance);
+  return meet_tolerance(session, goal_stages, tolerance, feedback_rounds);
 }
 
 std::string Chain::run(Session& session) const {

@@ -24,7 +24,7 @@ struct Chain {
   Stage refine;
   Stage evaluate;
 
-  std::optional<std::int64_t> feedback_rounds;  ///< as `meet_count` takes them
+  std::optional<std::int64_t> feedback_rounds;  ///< as the goals take them
   /// The options of the chain as a whole, which point into this object.
   OptionList declare() { return declare(feedback_rounds); }
   static OptionList declare(std::optional<std::int64_t>& feedback_rounds);

@@ -38,6 +38,10 @@ constexpr int kMostDensityRounds = 5;
 /// times it is.
 constexpr double kDensityMissed = 0.1;
 constexpr int kMostDensitySearches = 3;
+/// Error of cells at which lines aim before cells are divided, as a share of the tolerance. It is
+/// between the mean of a cell and its largest one, and fitting lowers it. At 0.6 more cells are
+/// divided, which leaves fewer quads; at less there are more vertices.
+constexpr double kAimedAt = 0.45;
 /// Times that cells are divided and vertices fitted again on the way to a tolerance. Fitting makes
 /// many cells good enough that would be divided without.
 constexpr int kFittedRefinements = 2;
@@ -102,20 +106,40 @@ void fit_before_dividing(Session& session, const GoalStages& stages) {
   rounds.parse_into(all_rounds);
 }
 
-/// Wants other distances between lines where the present result is too far from the surface, and
-/// corrects the scale of all of them by the count.
+/// Wants other distances between lines where the present result is too far from the surface.
 ///
 /// Errors are those of vertices on the surface: where they are large they stay so when vertices
 /// are fitted.
-void feed_back(Session& session, const GoalStages& stages, const LineAim& aim) {
+void want_by_errors(Session& session, const GoalStages& stages) {
   session.provide_as("fitted", session.get<QuadMesh>("quads"), "quads");
   session.run(stages.size);
+}
+
+/// Wants distances for even errors, and corrects the scale of all of them by the count.
+void feed_back(Session& session, const GoalStages& stages, const LineAim& aim) {
+  want_by_errors(session, stages);
   const Option& scale = stages.trace.option("spacing-scale");
   const double excess = kFeedbackExcess *
                         static_cast<double>(count_of(session, "quads", aim.counted)) /
                         static_cast<double>(aim.count);
   const double corrected = std::stod(scale.value()) * std::sqrt(excess);
   scale.parse_into(fmt::format("{}", std::clamp(corrected, scale.min, scale.max)));
+}
+
+/// Traces lines, and wants closer ones where a result of them is farther from the surface than a
+/// tolerance allows.
+void shrink_to_tolerance(Session& session, const GoalStages& stages, const std::string& tolerance) {
+  trace_and_mesh(session, stages);
+  const Option& aim = stages.size.option("size-tolerance");
+  const std::string own_aim = aim.value();
+  if (own_aim.empty()) {
+    Length length = Length::parse(tolerance);
+    length.value *= kAimedAt;
+    aim.parse_into(length.to_string());
+  }
+  want_by_errors(session, stages);
+  aim.parse_into(own_aim);
+  stages.trace.option("spacing-scale").parse_into(kScaleOfLines);
 }
 
 DensityMatch match_density(const Session& session, const GoalStages& stages) {
@@ -378,14 +402,17 @@ std::string follow_spacing(Session& session, const GoalStages& stages) {
   return "fitted";
 }
 
-std::string meet_tolerance(Session& session, const GoalStages& stages,
-                           const std::string& tolerance) {
+std::string meet_tolerance(Session& session, const GoalStages& stages, const std::string& tolerance,
+                           std::optional<std::int64_t> feedback_rounds) {
   stages.refine.option("refine-tolerance").parse_into(tolerance);
   if (only_quads(stages)) {
     session.say(
         "warning: with --pure-quads cells are not divided: the tolerance steers the spacing of "
         "lines, and may be exceeded");
     return follow_spacing(session, stages);
+  }
+  for (std::int64_t i = 0; i < feedback_rounds.value_or(kFeedbackRounds); ++i) {
+    shrink_to_tolerance(session, stages, tolerance);
   }
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
   const Attempt first = trace_within(session, stages, crossing);

@@ -26,12 +26,13 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
 /// result
 std::string follow_spacing(Session& session, const GoalStages& stages);
 
-/// Traces, and divides cells until the result is within a tolerance of the surface, both ways;
-/// where that is not reached, or faces of the result cross, again with closer lines.
+/// Traces, by default once more with closer lines where errors are too large, and divides cells
+/// until the result is within a tolerance of the surface, both ways; where that is not reached, or
+/// faces of the result cross, again with closer lines.
 /// \param tolerance  as `Length::to_string` gives it
 /// \return the port of the result
 /// \throw ToleranceError naming places where that is not reached
-std::string meet_tolerance(Session& session, const GoalStages& stages,
-                           const std::string& tolerance);
+std::string meet_tolerance(Session& session, const GoalStages& stages, const std::string& tolerance,
+                           std::optional<std::int64_t> feedback_rounds);
 
 }  // namespace strake

@@ -46,8 +46,8 @@ struct RemeshOptions {
   SizeOptions size;
   RefineOptions refine;  ///< `tolerance` and `vertices` follow from the goal
   EvaluateOptions evaluate;
-  /// Times that errors are evened out, where a count is wanted; default: 1, with a density as
-  /// many as it takes.
+  /// Times that lines are traced again by errors measured, where there is a goal; default: 1, with
+  /// a density and a count as many as it takes.
   std::optional<std::int64_t> feedback_rounds;
   bool measure = true;  ///< measure the result against the input at the end
 

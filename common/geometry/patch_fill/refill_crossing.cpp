@@ -240,7 +240,7 @@ class Refilling {
     std::ranges::sort(filling.removed);
     std::set<std::uint64_t> edges;  // that were added
     return std::ranges::all_of(outlines, [&](const auto& outline) {
-      return fill(outline.first, outline.second, kept, edges, filling);
+      return fill_outline(outline.first, outline.second, kept, edges, filling);
     });
   }
 
@@ -277,8 +277,8 @@ class Refilling {
     return may_go ? outline : Polygon{};
   }
 
-  bool fill(const std::vector<Index>& part, const Polygon& outline, Kept kept,
-            std::set<std::uint64_t>& edges, Filling& filling) const {
+  bool fill_outline(const std::vector<Index>& part, const Polygon& outline, Kept kept,
+                    std::set<std::uint64_t>& edges, Filling& filling) const {
     const std::size_t n = outline.size();
     std::vector<Vec3> corners;
     std::vector<Vec3> beyond(n, Vec3::Zero());

@@ -79,5 +79,23 @@ TEST(Remesh, WithFewVerticesFacesOfAPlateDoNotCross) {
   EXPECT_NEAR(result.quads.mesh.vertex_count(), 260, 13);
 }
 
+// Lines that are closer where errors are large leave fewer cells to divide, and so more quads.
+TEST(Remesh, LinesAreCloserWhereAToleranceIsExceeded) {
+  RemeshOptions options;
+  options.trace.tolerance = percent(0.3);
+  options.measure = false;
+  for (const double width : {0.08, 0.12, 0.2}) {
+    const PolyMesh mesh = claws(12, 0.9, width, 0.2, 20000);
+    const auto quad_share = [&](std::int64_t rounds) {
+      options.feedback_rounds = rounds;
+      const PolyMesh result = remesh({mesh, {}, {}, {}}, options).quads.mesh;
+      double quads = 0;
+      for (Index f = 0; f < result.face_count(); ++f) quads += result.face(f).size() == 4 ? 1 : 0;
+      return quads / result.face_count();
+    };
+    EXPECT_GT(quad_share(1), quad_share(0) + 0.02) << width;
+  }
+}
+
 }  // namespace
 }  // namespace strake

@@ -48,8 +48,9 @@ TEST(BoxTree, FindsPairsOnceThatLookingAtAllOfThemFinds) {
     std::vector<std::array<Index, 2>> found;
     const BoxTree tree(boxes);
     for (Index part = 0; part < tree.part_count(); ++part) {
-      tree.visit_touching_pairs(
-          part, [&](Index i, Index j) { found.push_back({std::min(i, j), std::max(i, j)}); });
+      tree.visit_touching_pairs(part, [&](Index i, Index j) {
+        found.push_back({std::min(i, j), std::max(i, j)});
+      });
     }
     std::vector<std::array<Index, 2>> touching;
     for (Index i = 0; i < count; ++i) {

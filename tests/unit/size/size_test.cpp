@@ -118,6 +118,17 @@ TEST(Size, ATighterToleranceShrinksMoreAndNoFeedbackChangesNothing) {
   for (const double d : sizes(c, options).along) EXPECT_DOUBLE_EQ(d, kUsed);
 }
 
+TEST(Size, UnderAToleranceNothingGrows) {
+  const Case c = bent_more_on_the_right();
+  SizeOptions options;
+  options.tolerance = percent(10);
+  for (const double d : sizes(c, options).along) EXPECT_DOUBLE_EQ(d, kUsed);
+  options.tolerance = Length{0.002, false};
+  const SizeField size = sizes(c, options);
+  for (const double d : size.across) EXPECT_LE(d, kUsed);
+  EXPECT_LT(mean_factor(c, size.along, 0.7, 1), 1);
+}
+
 /// A surface that is the same seen from its other end gives distances that are.
 TEST(Size, IsSymmetricWhereTheSurfaceIs) {
   const auto height = [](double x, double y) {
