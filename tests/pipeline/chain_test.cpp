@@ -34,6 +34,11 @@ TEST_F(Chain, FrontEndKeepsWhatThePrograms) {
 
 TEST_F(Chain, FrontEndKeepsAToleranceAsThePrograms) {
   run_chain("part.ply", "");
+  // Lines are closer where errors are too large.
+  must("strake-size mesh.hdf field.hdf lines.hdf quads.hdf -o size.hdf -q --size-tolerance 0.045%");
+  must("strake-trace mesh.hdf field.hdf -o lines.hdf -q --size size.hdf");
+  must("strake-mesh mesh.hdf lines.hdf -o quads.hdf -q");
+  must("strake-fit mesh.hdf quads.hdf --field field.hdf -o fitted.hdf -q");
   // Cells are divided and vertices fitted in turn, at last without: that could undo the tolerance.
   const std::string tolerance = " --refine-tolerance 0.1%";
   const std::string once = tolerance + " --refine-rounds 1 --refine-partly";

@@ -174,10 +174,16 @@ std::vector<std::array<Index, 2>> find_crossing_faces(
     BoxTree::Box box(positions[a]);
     return box.extend(positions[b]).extend(positions[c]);
   };
+  // Collapsed faces may lie in one place by thousands.
+  std::vector<std::uint8_t> is_seen(triangles.corners.size());
+  tbb::parallel_for(std::size_t{0}, is_seen.size(), [&](std::size_t t) {
+    is_seen[t] = has_area(shape_of(static_cast<Index>(t))) ? 1 : 0;
+  });
   std::vector<Index> inside;   // triangles in the tree
   std::vector<Index> outside;  // the others
   std::vector<BoxTree::Box> boxes;
   for (Index t = 0; t < static_cast<Index>(triangles.face.size()); ++t) {
+    if (is_seen[t] == 0) continue;
     const bool is_wanted = wanted[triangles.face[t]] != 0;
     (is_wanted ? inside : outside).push_back(t);
     if (is_wanted) boxes.push_back(box_of(t));
