@@ -1,6 +1,6 @@
 #include "common/geometry/face_crossings/face_crossings.h"
 
-#include <tbb/combinable.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <Eigen/Geometry>
@@ -190,7 +190,7 @@ std::vector<std::array<Index, 2>> find_crossing_faces(
   }
   const BoxTree tree(boxes);
   using Pairs = std::vector<std::array<Index, 2>>;
-  tbb::combinable<Pairs> found;
+  tbb::enumerable_thread_specific<Pairs> found;
   const auto test = [&](Index s, Index t) {
     const auto [less, more] = std::minmax(triangles.face[s], triangles.face[t]);
     if (less != more && !std::binary_search(known.begin(), known.end(), std::array{less, more}) &&
@@ -205,8 +205,7 @@ std::vector<std::array<Index, 2>> find_crossing_faces(
     tree.visit_touching(box_of(outside[k]), [&](Index i) { test(inside[i], outside[k]); });
   });
   Pairs pairs;
-  found.combine_each(
-      [&](const Pairs& some) { pairs.insert(pairs.end(), some.begin(), some.end()); });
+  for (const Pairs& some : found) pairs.insert(pairs.end(), some.begin(), some.end());
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   return pairs;
