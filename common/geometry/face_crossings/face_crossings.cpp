@@ -190,7 +190,7 @@ std::vector<std::array<Index, 2>> find_crossing_faces(
   }
   const BoxTree tree(boxes);
   using Pairs = std::vector<std::array<Index, 2>>;
-  tbb::enumerable_thread_specific<Pairs> found;
+  tbb::enumerable_thread_specific<Pairs> found([] { return Pairs{}; });
   const auto test = [&](Index s, Index t) {
     const auto [less, more] = std::minmax(triangles.face[s], triangles.face[t]);
     if (less != more && !std::binary_search(known.begin(), known.end(), std::array{less, more}) &&
