@@ -127,8 +127,12 @@ Provenance RemeshCommand::provenance() {
     whole.stage_version += part.stage_version;
     whole.options.insert(whole.options.end(), part.options.begin(), part.options.end());
   }
-  const Option rounds = chain.declare().front();
-  whole.options.push_back({rounds.name, rounds.value(), !chain.feedback_rounds});
+  const OptionList own = chain.declare();
+  Chain untouched;
+  const OptionList defaults = untouched.declare();
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    whole.options.push_back({own[i].name, own[i].value(), own[i].value() == defaults[i].value()});
+  }
   whole.inputs = {{"input", content_digest(input)}};
   for (const SideFile& file : side_files()) {
     whole.inputs.push_back({file.port, content_digest(file.path)});

@@ -3,8 +3,8 @@
     import strake
     V, F = strake.remesh(vertices, faces, vertices_wanted=5000)
 
-`remesh` runs the whole chain; `import_mesh`, `tensor`, `smooth`, `trace`, `mesh`, `fit`, `size`, `refine`
-and `evaluate` are its stages. Options are keyword arguments with the names of the command line,
+`remesh` runs the whole chain; `import_mesh`, `tensor`, `smooth`, `trace`, `mesh`, `fit`, `size`, `refine`,
+`decimate` and `evaluate` are its stages. Options are keyword arguments with the names of the command line,
 dashes written as underscores: `feature_angle=30`, `pure_quads=True`. Lengths are numbers in model
 units, or text such as "0.1%", a share of the bounding-box diagonal. Two names differ, since results
 have vertices and faces too: `vertices_wanted` and `faces_wanted`.
@@ -26,7 +26,7 @@ from ._core import (AlgorithmError, DensityField, EdgeList, Error, InputError, L
 __all__ = [
     "AlgorithmError", "DensityField", "EdgeList", "Error", "Faces", "InputError", "LineSet",
     "Polygons", "PreconditionError", "PrincipalField", "QuadMesh", "Remeshed", "SizeField",
-    "TensorField", "ToleranceError", "TriMesh", "UsageError", "evaluate", "fit", "import_mesh",
+    "TensorField", "ToleranceError", "TriMesh", "UsageError", "decimate", "evaluate", "fit", "import_mesh",
     "line_points", "mesh", "polygons", "refine", "remesh", "size", "smooth", "tensor", "trace",
 ]
 
@@ -266,6 +266,11 @@ def refine(mesh, quads, *, threads=0, progress=None, **options):
     return _run("refine", {"mesh": mesh, "fitted": quads}, options, threads, progress)[0]
 
 
+def decimate(mesh, *, threads=0, progress=None, **options):
+    """Makes a QuadMesh of few vertices by decimating a TriMesh, where lines would be too coarse."""
+    return _run("decimate", {"mesh": mesh}, options, threads, progress)[0]
+
+
 def evaluate(mesh, candidate, *, field=None, threads=0, progress=None, **options):
     """Measures a QuadMesh, or any `polygons`, against a TriMesh. Gives a dict by dotted key."""
     if isinstance(candidate, QuadMesh):
@@ -288,5 +293,5 @@ def _describe(function, declared):
 
 _describe(remesh, _core.remesh_options())
 _describe(import_mesh, _core.stage_options("import"))
-for _function in (tensor, smooth, trace, mesh, fit, size, refine, evaluate):
+for _function in (tensor, smooth, trace, mesh, fit, size, refine, decimate, evaluate):
     _describe(_function, _core.stage_options(_function.__name__))

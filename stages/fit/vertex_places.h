@@ -35,7 +35,7 @@ class VertexPlaces {
   [[nodiscard]] bool is_on_line(Index v) const { return lines_[v].kind == Kind::line; }
   /// Unit direction of the line that the vertex slides along. \pre is_on_line(v)
   [[nodiscard]] Vec3 line_tangent(Index v) const { return tangent(lines_[v]); }
-  /// One arm of the field's cross at the vertex's foot; zero where it cancels.
+  /// One arm of the cross that edges turn to at the vertex's foot; zero where it cancels.
   [[nodiscard]] Vec3 cross_arm(const PrincipalField& field, Index v) const;
   /// |k_max - k_min| at the vertex's foot, 1/length.
   [[nodiscard]] double anisotropy(const PrincipalField& field, Index v) const;

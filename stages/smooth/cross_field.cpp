@@ -17,6 +17,9 @@ using Complex = std::complex<double>;
 constexpr double kFeatureWeight = 100;  ///< against Dirichlet weights of order one
 constexpr double kGuideWeight = 100;    ///< likewise, on the faces that a guide passes
 constexpr double kBoundaryWeight = 5;  ///< scan boundaries are ragged: follow, but not at any price
+/// Stiffness of the cross that edges turn to, in that of the one that lines follow: it evens out
+/// over a third of the length.
+constexpr double kDetail = 8;
 constexpr double kLossAngle = 10 * M_PI / 180;  ///< of the loss of Geman and McClure
 constexpr int kReweightings = 6;
 /// When a solve is good enough, as a share of the holds to principal directions. What features and
@@ -134,11 +137,15 @@ Index solve_reweighted(CrossSystem& system, double tolerance, std::vector<Comple
   return solve(system.matrix, right, options, solution, space.solver);
 }
 
-/// [W] the cross of every wedge. \param iterations  set to the steps that solving took
-std::vector<Complex> solve_crosses(CrossSystem system, Index& iterations) {
+/// Crosses of all wedges [W].
+struct Crosses {
+  std::vector<Complex> lines;   ///< that lines follow
+  std::vector<Complex> detail;  ///< that edges turn to
+  Index iterations = 0;         ///< of all solves
+};
+
+std::vector<Complex> solve_crosses(CrossSystem& system, Workspace& space, Index& iterations) {
   std::vector<Complex> solution = system.principal;
-  Workspace space;
-  iterations = 0;
   for (int round = 0; round <= kReweightings; ++round) {
     const double tolerance = round < kReweightings ? kRoughTolerance : kTolerance;
     iterations += solve_reweighted(system, tolerance, solution, space);
@@ -146,24 +153,38 @@ std::vector<Complex> solve_crosses(CrossSystem system, Index& iterations) {
   return solution;
 }
 
+Crosses solve_both(CrossSystem system) {
+  Crosses crosses;
+  Workspace space;
+  crosses.lines = solve_crosses(system, space, crosses.iterations);
+  for (double& hold : system.hold) hold *= kDetail;
+  crosses.detail = solve_crosses(system, space, crosses.iterations);
+  return crosses;
+}
+
+/// [W] one arm of each cross, in space; the principal direction where there is none.
+std::vector<Vec3> arms_of(const std::vector<Complex>& crosses, const PrincipalField& field) {
+  std::vector<Vec3> arms(crosses.size());
+  tbb::parallel_for(Index{0}, static_cast<Index>(crosses.size()), [&](Index w) {
+    const TangentFrame frame = tangent_frame(field.normal[w]);
+    const Vec2 principal = frame.tangent_from_world(field.t_min[w]);
+    const double size = std::norm(crosses[w]);
+    const bool usable = std::isfinite(size) && size > 0;
+    const Vec2 arm = usable ? cross_arm(crosses[w], principal) : principal;
+    arms[w] = frame.world_from_tangent(arm).normalized();
+  });
+  return arms;
+}
+
 }  // namespace
 
 Index extend_cross_field(const TriMesh& mesh, const WedgeGraph& graph, double stiffness,
                          const GuidePull& guides, PrincipalField& field) {
-  Index iterations = 0;
-  const std::vector<Complex> solution =
-      solve_crosses(cross_system(mesh, graph, stiffness, guides, field), iterations);
-  field.cross.resize(solution.size());
-  tbb::parallel_for(Index{0}, graph.size(), [&](Index w) {
-    const TangentFrame frame = tangent_frame(field.normal[w]);
-    const Vec2 principal = frame.tangent_from_world(field.t_min[w]);
-    const double size = std::norm(solution[w]);
-    const bool usable = std::isfinite(size) && size > 0;
-    const Vec2 arm = usable ? cross_arm(solution[w], principal) : principal;
-    field.cross[w] = frame.world_from_tangent(arm).normalized();
-  });
+  const Crosses crosses = solve_both(cross_system(mesh, graph, stiffness, guides, field));
+  field.cross = arms_of(crosses.lines, field);
+  field.detail = arms_of(crosses.detail, field);
   field.cross_extended = true;
-  return iterations;
+  return crosses.iterations;
 }
 
 }  // namespace strake

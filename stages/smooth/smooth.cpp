@@ -185,6 +185,7 @@ SmoothResult smooth_tensors(const TriMesh& mesh, TensorField tensor, const Smoot
     name_arms(field);
   } else {
     field.cross = field.t_min;
+    field.detail = field.t_min;
   }
   return result;
 }

@@ -1,6 +1,7 @@
 #include "strake/chain/chain.h"
 
 #include "common/core/error.h"
+#include "stages/decimate/stage.h"
 #include "stages/evaluate/stage.h"
 #include "stages/fit/stage.h"
 #include "stages/import/stage.h"
@@ -29,9 +30,10 @@ Chain::Chain()
       fit(fit_stage()),
       size(size_stage()),
       refine(refine_stage()),
+      decimate(decimate_stage()),
       evaluate(evaluate_stage()) {}
 
-OptionList Chain::declare(std::optional<std::int64_t>& rounds) {
+OptionList Chain::declare(std::optional<std::int64_t>& rounds, bool& lines_only) {
   return {{.name = "feedback-rounds",
            .target = &rounds,
            .unit = "",
@@ -39,11 +41,16 @@ OptionList Chain::declare(std::optional<std::int64_t>& rounds) {
                    "count is wanted, closer where they are too large for a tolerance. 1; with a "
                    "density and a count as many as it takes.",
            .min = 0,
-           .max = 20}};
+           .max = 20},
+          {.name = "lines-only",
+           .target = &lines_only,
+           .unit = "",
+           .help = "Keep the result of lines also where they are too coarse for the shape at the "
+                   "wanted count, and decimating it does much better."}};
 }
 
 std::vector<const Stage*> Chain::stages() const {
-  return {&import, &tensor, &smooth, &trace, &mesh, &fit, &size, &refine, &evaluate};
+  return {&import, &tensor, &smooth, &trace, &mesh, &fit, &size, &refine, &decimate, &evaluate};
 }
 
 void Chain::check_goals() const {
@@ -57,12 +64,13 @@ void Chain::check_goals() const {
 }
 
 std::string Chain::reach_goal(Session& session) const {
-  const GoalStages goal_stages{trace, mesh, fit, size, refine};
+  const GoalStages goal_stages{trace, mesh, fit, size, refine, decimate};
   for (const Counted counted : {Counted::vertices, Counted::faces}) {
     const char* name = counted == Counted::vertices ? "vertices" : "faces";
     const std::string wanted = trace.option(name).value();
     if (wanted.empty()) continue;
-    return meet_count(session, goal_stages, counted, std::stoll(wanted), feedback_rounds);
+    return meet_count(session, goal_stages, counted, std::stoll(wanted), feedback_rounds,
+                      lines_only);
   }
   const std::string tolerance = trace.option("tolerance").value();
   if (tolerance.empty()) return follow_spacing(session, goal_stages);

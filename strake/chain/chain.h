@@ -22,12 +22,14 @@ struct Chain {
   Stage fit;
   Stage size;
   Stage refine;
+  Stage decimate;
   Stage evaluate;
 
   std::optional<std::int64_t> feedback_rounds;  ///< as the goals take them
+  bool lines_only = false;                      ///< likewise
   /// The options of the chain as a whole, which point into this object.
-  OptionList declare() { return declare(feedback_rounds); }
-  static OptionList declare(std::optional<std::int64_t>& feedback_rounds);
+  OptionList declare() { return declare(feedback_rounds, lines_only); }
+  static OptionList declare(std::optional<std::int64_t>& feedback_rounds, bool& lines_only);
 
   /// All stages, in the order of their first run.
   [[nodiscard]] std::vector<const Stage*> stages() const;

@@ -11,6 +11,7 @@ struct GoalStages {
   Stage fit;
   Stage size;
   Stage refine;
+  Stage decimate;
 };
 
 }  // namespace strake

@@ -14,6 +14,7 @@
 #include "strake/chain/count_search.h"
 #include "strake/chain/crossing_places.h"
 #include "strake/chain/density_match.h"
+#include "strake/chain/too_coarse.h"
 
 namespace strake {
 namespace {
@@ -74,13 +75,6 @@ struct LineAim {
     return std::abs(static_cast<double>(reached - wanted)) / static_cast<double>(wanted);
   }
 };
-
-std::int64_t count_of(const Session& session, const char* port, Counted counted) {
-  const PolyMesh& mesh = session.get<QuadMesh>(port).mesh;
-  return counted == Counted::vertices ? mesh.vertex_count() : mesh.face_count();
-}
-
-const char* name_of(Counted counted) { return counted == Counted::vertices ? "vertices" : "faces"; }
 
 void trace_and_mesh(Session& session, const GoalStages& stages) {
   session.run(stages.trace);
@@ -354,7 +348,8 @@ Attempt fit_to_count(Session session, const GoalStages& stages, const LineAim& a
 }  // namespace
 
 std::string meet_count(Session& session, const GoalStages& stages, Counted counted,
-                       std::int64_t wanted, std::optional<std::int64_t> feedback_rounds) {
+                       std::int64_t wanted, std::optional<std::int64_t> feedback_rounds,
+                       bool lines_only) {
   // A density says where vertices go, not the errors.
   const double left = only_quads(stages) || session.has("density") ? 0 : kLeftForWorst;
   const LineAim aim{counted, std::llround((1 - left) * static_cast<double>(wanted)), wanted, left};
@@ -387,6 +382,10 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
   };
   const Index faces = first.done.get<QuadMesh>("fitted").mesh.face_count();
   session = part_faces(first, faces, again, keep).done;
+  // What a user says of directions and of lines decimation knows nothing of.
+  const bool needs_lines = lines_only || only_quads(stages) || session.has("density") ||
+                           session.get<PrincipalField>("field").guides.line_count() > 0;
+  if (!needs_lines) decimate_if_too_coarse(session, stages, counted, wanted);
   const std::int64_t reached = count_of(session, "fitted", counted);
   if (aim.miss(reached) > kCountTolerance) {
     session.say(fmt::format(

@@ -4,13 +4,11 @@
 #include <optional>
 #include <string>
 
+#include "strake/chain/counted.h"
 #include "strake/chain/goal_stages.h"
 #include "strake/chain/session.h"
 
 namespace strake {
-
-/// What is counted.
-enum class Counted { vertices, faces };
 
 /// Traces until the result has about the wanted count, with the errors of its cells made even.
 ///
@@ -18,9 +16,12 @@ enum class Counted { vertices, faces };
 /// errors measured (by default one, with a density as many as it takes to follow it, up to five);
 /// then only the scale of all distances changes. Where more than 2 % of the count are missing in
 /// the end the cells that are farthest off are divided. Where faces of the result cross, lines are
-/// traced closer there and the count is looked for again. \return the port of the result
+/// traced closer there and the count is looked for again. Where lines are too coarse for the
+/// surface decimation may take their place (too_coarse.h). \param lines_only  never decimate
+/// \return the port of the result
 std::string meet_count(Session& session, const GoalStages& stages, Counted counted,
-                       std::int64_t wanted, std::optional<std::int64_t> feedback_rounds);
+                       std::int64_t wanted, std::optional<std::int64_t> feedback_rounds,
+                       bool lines_only);
 
 /// Traces once, at the distances that the options of tracing ask for. \return the port of the
 /// result

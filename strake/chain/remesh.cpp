@@ -76,8 +76,9 @@ OptionList RemeshOptions::declare() {
   add(fit.declare());
   add(size.declare());
   add(refine.declare());
+  add(decimate.declare());
   add(evaluate.declare());
-  add(Chain::declare(feedback_rounds));
+  add(Chain::declare(feedback_rounds, lines_only));
   return all;
 }
 

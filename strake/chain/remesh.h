@@ -13,6 +13,7 @@
 #include "common/core/report.h"
 #include "common/core/stage_observer.h"
 #include "common/core/tri_mesh.h"
+#include "stages/decimate/decimate.h"
 #include "stages/evaluate/evaluate.h"
 #include "stages/fit/fit.h"
 #include "stages/import/import.h"
@@ -44,11 +45,15 @@ struct RemeshOptions {
   MeshOptions mesh;
   FitOptions fit;
   SizeOptions size;
-  RefineOptions refine;  ///< `tolerance` and `vertices` follow from the goal
+  RefineOptions refine;      ///< `tolerance` and `vertices` follow from the goal
+  DecimateOptions decimate;  ///< likewise
   EvaluateOptions evaluate;
   /// Times that lines are traced again by errors measured, where there is a goal; default: 1, with
   /// a density and a count as many as it takes.
   std::optional<std::int64_t> feedback_rounds;
+  /// Keep the result of lines also where they are too coarse for the shape at a wanted count, and
+  /// decimating it does much better.
+  bool lines_only = false;
   bool measure = true;  ///< measure the result against the input at the end
 
   /// All of them as declared; their names are those of the command line. They point into this

@@ -22,8 +22,8 @@ struct Found {
   ArtifactInfo info;
 };
 
-const std::vector<std::string> kStageOrder = {"import", "tensor", "smooth", "size",    "trace",
-                                              "mesh",   "fit",    "refine", "evaluate"};
+const std::vector<std::string> kStageOrder = {"import", "tensor",   "smooth", "size",   "trace",
+                                              "mesh",   "decimate", "fit",    "refine", "evaluate"};
 
 std::ptrdiff_t stage_place(const std::string& stage) {
   return std::find(kStageOrder.begin(), kStageOrder.end(), stage) - kStageOrder.begin();

@@ -4,6 +4,7 @@
 #include <functional>
 #include <utility>
 
+#include "stages/decimate/stage.h"
 #include "stages/evaluate/stage.h"
 #include "stages/export/stage.h"
 #include "stages/fit/stage.h"
@@ -27,10 +28,10 @@ constexpr const char* kTensorPart = "tensor-part";
 
 const std::vector<std::pair<std::string, Maker>>& catalog() {
   static const std::vector<std::pair<std::string, Maker>> kCatalog = {
-      {"sample", sample_stage},     {"import", import_stage}, {"tensor", tensor_stage},
-      {"smooth", smooth_stage},     {"trace", trace_stage},   {"mesh", mesh_stage},
-      {"fit", fit_stage},           {"refine", refine_stage}, {"size", size_stage},
-      {"evaluate", evaluate_stage}, {"export", export_stage},
+      {"sample", sample_stage},     {"import", import_stage},     {"tensor", tensor_stage},
+      {"smooth", smooth_stage},     {"trace", trace_stage},       {"mesh", mesh_stage},
+      {"fit", fit_stage},           {"refine", refine_stage},     {"size", size_stage},
+      {"decimate", decimate_stage}, {"evaluate", evaluate_stage}, {"export", export_stage},
   };
   return kCatalog;
 }

@@ -204,6 +204,27 @@ TEST(Fit, TurnsEdgesTowardsTheField) {
             turn_on_torus(fitted(surface.mesh, shaken).mesh, major));
 }
 
+// Edges turn to the cross of details; only fields without one make them turn to that of lines.
+TEST(Fit, TurnsEdgesTowardsDetails) {
+  SampleOptions options;
+  options.faces = 6000;
+  const support::Prepared surface = support::prepare(make_sample(SampleKind::ellipsoid, options));
+  const QuadMesh quads = support::mesh(surface, support::trace(surface));
+  SilentObserver observer;
+  const auto positions = [&](const PrincipalField& field) {
+    return fit_vertices(surface.mesh, &field, quads, {}, observer).quads.mesh.positions;
+  };
+  PrincipalField other_lines = surface.field;
+  std::swap(other_lines.cross, other_lines.t_min);
+  EXPECT_EQ(positions(other_lines), positions(surface.field));
+  PrincipalField no_detail = surface.field;
+  no_detail.detail.clear();
+  PrincipalField same_detail = surface.field;
+  same_detail.detail = same_detail.cross;
+  EXPECT_EQ(positions(no_detail), positions(same_detail));
+  EXPECT_NE(positions(no_detail), positions(surface.field));
+}
+
 TEST(Fit, TurnsWithTheModel) {
   const SphereCase sphere;
   const QuadMesh plain = fitted(sphere.mesh, sphere.quads);

@@ -1,0 +1,73 @@
+#include "stages/decimate/decimate.h"
+
+#include <string>
+#include <utility>
+
+#include "common/core/error.h"
+#include "common/geometry/carry_attributes.h"
+#include "common/geometry/poly_topology/poly_topology.h"
+#include "common/geometry/topology/topology.h"
+#include "stages/decimate/collapse.h"
+#include "stages/decimate/pair_triangles.h"
+
+namespace strake {
+namespace {
+
+/// Vertices of a result that are those of the surface.
+VertexProvenance provenance_of(const TriMesh& mesh, const std::vector<Index>& vertices) {
+  VertexProvenance result;
+  for (const Index v : vertices) {
+    const Index h = mesh.vertex_out[v];
+    result.face.push_back(TriMesh::face_of(h));
+    result.barycentric.push_back({0, 0, 0});
+    result.barycentric.back()[h % 3] = 1;
+    result.lines.push_back({kNone, kNone});
+  }
+  return result;
+}
+
+/// \throw AlgorithmError where the result is no surface of the same topology
+void check_result(const TriMesh& mesh, const PolyTopology& result) {
+  const Census wanted = census(mesh);
+  if (!result.is_oriented_manifold()) {
+    throw AlgorithmError("the decimated mesh is not an oriented manifold: " + result.defects() +
+                         "; please report this model");
+  }
+  if (result.components != wanted.components || result.boundary_loops != wanted.boundary_loops ||
+      result.euler != wanted.euler_characteristic) {
+    throw AlgorithmError(
+        "the decimated mesh has another topology than the surface: Euler "
+        "characteristic " +
+        std::to_string(result.euler) + " instead of " +
+        std::to_string(wanted.euler_characteristic) + "; please report this model");
+  }
+}
+
+}  // namespace
+
+DecimateResult decimate_to_quads(const TriMesh& mesh, const DecimateOptions& options,
+                                 Observer& observer) {
+  const auto count = static_cast<Index>(options.vertices);
+  const CoarseSurface coarse = collapse_to(mesh, count, observer);
+  observer.report("pairing triangles", 0);
+  DecimateResult result;
+  result.quads.mesh_id = mesh.id;
+  result.quads.mesh = pair_triangles(coarse);
+  for (Vec3& p : result.quads.mesh.positions) p += mesh.origin;
+  result.quads.provenance = provenance_of(mesh, coarse.vertex);
+  result.quads.mesh.attributes = carry_attributes(mesh, result.quads.mesh, result.quads.provenance);
+  const PolyTopology topology = analyse(result.quads.mesh);
+  check_result(mesh, topology);
+  const Index reached = result.quads.mesh.vertex_count();
+  if (reached > count) {
+    result.report.warn("decimation ends at " + std::to_string(reached) + " vertices where " +
+                       std::to_string(count) +
+                       " were wanted: fewer would change the topology of the surface");
+  }
+  result.report.set("decimate.vertices", std::int64_t{reached});
+  result.report.set("decimate.faces", std::int64_t{topology.faces});
+  result.report.set("decimate.quads", std::int64_t{topology.quads});
+  return result;
+}
+
+}  // namespace strake

@@ -1,0 +1,14 @@
+#include "strake/chain/counted.h"
+
+#include "common/core/poly_mesh.h"
+
+namespace strake {
+
+std::int64_t count_of(const Session& session, const char* port, Counted counted) {
+  const PolyMesh& mesh = session.get<QuadMesh>(port).mesh;
+  return counted == Counted::vertices ? mesh.vertex_count() : mesh.face_count();
+}
+
+const char* name_of(Counted counted) { return counted == Counted::vertices ? "vertices" : "faces"; }
+
+}  // namespace strake

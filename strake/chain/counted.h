@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+
+#include "strake/chain/session.h"
+
+namespace strake {
+
+/// What is counted.
+enum class Counted { vertices, faces };
+
+/// Vertices or faces of the quads at a port.
+std::int64_t count_of(const Session& session, const char* port, Counted counted);
+
+/// "vertices" or "faces".
+const char* name_of(Counted counted);
+
+}  // namespace strake

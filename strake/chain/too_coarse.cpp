@@ -1,0 +1,121 @@
+#include "strake/chain/too_coarse.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "common/geometry/cell_error/cell_error.h"
+#include "common/geometry/mesh_measures.h"
+#include "strake/chain/crossing_places.h"
+
+namespace strake {
+namespace {
+
+/// Root mean square of the distance, in mean lengths of cells, from which on it is seen.
+constexpr double kSeen = 0.06;
+/// Share of the faces that cross, from which on cells are no longer in order.
+constexpr double kManyCross = 0.02;
+/// Share of a wanted count that a result may be off by.
+constexpr double kFarOff = 0.05;
+/// Share of a distance that is much less than it.
+constexpr double kMuchLess = 0.5;
+/// Times that the count is corrected where faces are counted, and error that is small enough.
+constexpr int kMostCorrections = 3;
+constexpr double kCountAccuracy = 0.02;
+/// Samples of a result and of the surface, about; large cells hide much between few.
+constexpr double kSamples = 200000;
+
+struct Goal {
+  Counted counted;
+  std::int64_t wanted;
+};
+
+struct Faults {
+  double distance =
+      0;  ///< root mean square, in mean lengths of cells, were there as many as wanted
+  double crossing = 0;  ///< share of the faces
+  double missing = 0;   ///< share of the count, too few or too many
+};
+
+double area(const TriMesh& mesh) {
+  double sum = 0;
+  for (const double a : wedge_areas(mesh)) sum += a;
+  return sum;
+}
+
+/// The count of the quads at a port, as a share of what is wanted.
+double reached(const Session& session, const char* port, const Goal& goal) {
+  return static_cast<double>(count_of(session, port, goal.counted)) /
+         static_cast<double>(goal.wanted);
+}
+
+CellSampling sampling_of(const PolyMesh& result) {
+  const double root = std::sqrt(kSamples / result.face_count());
+  return {.rows = static_cast<int>(std::clamp(root, 3.0, 20.0)),
+          .input_step = 1 / std::clamp(root, 3.0, 20.0)};
+}
+
+Faults faults_of(const Session& session, const Goal& goal) {
+  const auto& mesh = session.get<TriMesh>("mesh");
+  const auto& result = session.get<QuadMesh>("fitted");
+  const double share = reached(session, "fitted", goal);
+  const double cell = std::sqrt(area(mesh) / result.mesh.vertex_count() * share);
+  const auto crossing = static_cast<double>(CrossingPlaces(mesh).of(result.mesh).size());
+  return {measure_cells(ComparedSurfaces(mesh, result), sampling_of(result.mesh)).rms / cell,
+          crossing / result.mesh.face_count(), std::abs(share - 1)};
+}
+
+bool is_too_coarse(const Faults& faults) {
+  return faults.distance > kSeen || faults.crossing > kManyCross || faults.missing > kFarOff;
+}
+
+/// Whether one of the faults is much less, and none is more.
+bool is_much_better(const Faults& other, const Faults& faults) {
+  const bool is_nearer = other.distance < kMuchLess * faults.distance;
+  const bool crosses_less = faults.crossing > kManyCross && other.crossing < kManyCross / 2;
+  const bool is_as_wanted = faults.missing > kFarOff && other.missing < kFarOff / 2;
+  return (is_nearer || crosses_less || is_as_wanted) && other.distance <= faults.distance &&
+         other.crossing <= faults.crossing && other.missing <= std::max(faults.missing, kFarOff);
+}
+
+/// Decimates until the count is met, as nearly as a few corrections allow.
+void decimate_to_count(Session& session, const GoalStages& stages, const Goal& goal) {
+  // Cells of lines have about as many vertices a face.
+  double vertices = static_cast<double>(count_of(session, "fitted", Counted::vertices)) /
+                    reached(session, "fitted", goal);
+  const Option& option = stages.decimate.option("decimate-vertices");
+  for (int i = 0; i < kMostCorrections; ++i) {
+    option.parse_into(std::to_string(std::max(std::llround(vertices), std::llround(option.min))));
+    session.run(stages.decimate);
+    const double share = reached(session, "decimated", goal);
+    if (std::abs(share - 1) <= kCountAccuracy) return;
+    vertices /= share;
+  }
+}
+
+}  // namespace
+
+void decimate_if_too_coarse(Session& session, const GoalStages& stages, Counted counted,
+                            std::int64_t wanted) {
+  const Goal goal{counted, wanted};
+  const Faults faults = faults_of(session, goal);
+  if (!is_too_coarse(faults)) return;
+  session.say(fmt::format("lines are coarse for this shape at {} {}; decimating to compare", wanted,
+                          name_of(counted)));
+  Session other = session;
+  decimate_to_count(other, stages, goal);
+  other.provide_as("quads", other.get<QuadMesh>("decimated"), "decimated");
+  other.run(stages.fit);
+  if (!is_much_better(faults_of(other, goal), faults)) return;
+  session = other;
+  session.keep(stages.decimate);
+  session.keep(stages.fit);
+  session.say(fmt::format(
+      "warning: lines are too coarse for this shape at {} {}: the result was decimated instead, "
+      "and has more triangles; ask for more, or give --lines-only",
+      wanted, name_of(counted)));
+}
+
+}  // namespace strake

@@ -1,0 +1,107 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "common/geometry/poly_topology/poly_topology.h"
+#include "common/geometry/samples/samples.h"
+#include "strake/chain/remesh.h"
+#include "tests/support/plates.h"
+
+namespace strake {
+namespace {
+
+/// A plate with so many pits that a few hundred vertices cannot run lines around them all.
+PolyMesh pits() {
+  std::vector<support::Disk> disks;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) disks.push_back({Vec2(i - 2.5, j - 2.5), 0.3, 20});
+  }
+  return support::pitted_plate(3.5, disks, 0.8);
+}
+
+double measure_of(const RemeshResult& result, const std::string& key) {
+  for (const auto& [stage, report] : result.reports) {
+    for (const auto& [name, value] : report.entries()) {
+      if (name != key) continue;
+      const auto* number = std::get_if<double>(&value);
+      return number != nullptr ? *number : static_cast<double>(std::get<std::int64_t>(value));
+    }
+  }
+  ADD_FAILURE() << "no " << key;
+  return 0;
+}
+
+bool is_decimated(const RemeshResult& result) {
+  return std::ranges::any_of(result.messages, [](const std::string& message) {
+    return message.find("decimated instead") != std::string::npos;
+  });
+}
+
+TEST(TooCoarse, DecimationTakesThePlaceOfLinesThatMissTheShape) {
+  const PolyMesh mesh = pits();
+  RemeshOptions options;
+  options.trace.vertices = 260;
+  const RemeshResult result = remesh({mesh, {}, {}, {}}, options);
+  ASSERT_TRUE(is_decimated(result));
+  EXPECT_EQ(result.quads.mesh.vertex_count(), 260);
+  EXPECT_EQ(measure_of(result, "shape.self_intersecting_pairs"), 0);
+  EXPECT_EQ(analyse(result.quads.mesh).genus, 0);
+  options.lines_only = true;
+  const RemeshResult lines = remesh({mesh, {}, {}, {}}, options);
+  EXPECT_FALSE(is_decimated(lines));
+  EXPECT_GT(measure_of(lines, "shape.self_intersecting_pairs"), 0);
+  EXPECT_LT(measure_of(result, "distance.rms"), measure_of(lines, "distance.rms"));
+}
+
+// Lines around so many pits are too many, or none at all.
+TEST(TooCoarse, ACountIsMetThatLinesMiss) {
+  const PolyMesh mesh = pits();
+  RemeshOptions options;
+  options.trace.vertices = 150;
+  options.measure = false;
+  EXPECT_EQ(remesh({mesh, {}, {}, {}}, options).quads.mesh.vertex_count(), 150);
+  options.lines_only = true;
+  const Index lines = remesh({mesh, {}, {}, {}}, options).quads.mesh.vertex_count();
+  EXPECT_GT(std::abs(lines - 150), 15);
+}
+
+TEST(TooCoarse, FacesAreCountedLikewise) {
+  RemeshOptions options;
+  options.trace.faces = 250;
+  options.measure = false;
+  const RemeshResult result = remesh({pits(), {}, {}, {}}, options);
+  ASSERT_TRUE(is_decimated(result));
+  EXPECT_NEAR(result.quads.mesh.face_count(), 250, 12);
+}
+
+TEST(TooCoarse, NothingChangesWhereLinesDo) {
+  SampleOptions sample;
+  sample.faces = 6000;
+  const PolyMesh mesh = make_sample(SampleKind::ellipsoid, sample);
+  RemeshOptions options;
+  options.trace.vertices = 200;
+  options.measure = false;
+  const RemeshResult result = remesh({mesh, {}, {}, {}}, options);
+  EXPECT_FALSE(is_decimated(result));
+  options.lines_only = true;
+  EXPECT_EQ(result.quads.mesh.positions, remesh({mesh, {}, {}, {}}, options).quads.mesh.positions);
+}
+
+TEST(TooCoarse, PureQuadsAndGuidesNeedLines) {
+  RemeshOptions options;
+  options.trace.vertices = 150;
+  options.mesh.pure_quads = true;
+  options.measure = false;
+  const PolyMesh mesh = pits();
+  EXPECT_FALSE(is_decimated(remesh({mesh, {}, {}, {}}, options)));
+  options.mesh.pure_quads = false;
+  const GuideLines guides = {{{Vec3(-3, 0.1, 0), Vec3(3, 0.1, 0)}}, "guides"};
+  EXPECT_FALSE(is_decimated(remesh({mesh, {}, guides, {}}, options)));
+}
+
+}  // namespace
+}  // namespace strake

@@ -1,0 +1,69 @@
+#include "stages/decimate/collapse.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "common/geometry/samples/samples.h"
+#include "tests/support/import_support.h"
+
+namespace strake {
+namespace {
+
+TriMesh sample(SampleKind kind, std::int64_t faces) {
+  SampleOptions options;
+  options.faces = faces;
+  return support::import_tri_mesh(make_sample(kind, options));
+}
+
+CoarseSurface collapsed(const TriMesh& mesh, Index count) {
+  SilentObserver observer;
+  return collapse_to(mesh, count, observer);
+}
+
+TEST(CollapseTo, GivesTheCountWithVerticesOfTheSurface) {
+  const TriMesh mesh = sample(SampleKind::ellipsoid, 4000);
+  const CoarseSurface coarse = collapsed(mesh, 150);
+  ASSERT_EQ(coarse.positions.size(), 150u);
+  ASSERT_EQ(coarse.faces.size(), 2 * 150u - 4);  // Euler, for a sphere of triangles
+  const std::set<Index> different(coarse.vertex.begin(), coarse.vertex.end());
+  EXPECT_EQ(different.size(), 150u);
+  for (std::size_t v = 0; v < coarse.vertex.size(); ++v) {
+    EXPECT_EQ(coarse.positions[v], mesh.positions[coarse.vertex[v]]);
+  }
+}
+
+// The rims of a cylinder stay two rings of edges between vertices on them.
+TEST(CollapseTo, KeepsFeatureLines) {
+  const TriMesh mesh = sample(SampleKind::cylinder, 6000);
+  const CoarseSurface coarse = collapsed(mesh, 60);
+  std::map<Index, int> ends;  // vertices of barriers, with the number of half-edges there
+  for (std::size_t h = 0; h < coarse.is_barrier.size(); ++h) {
+    if (coarse.is_barrier[h] == 0) continue;
+    for (const std::size_t i : {h % 3, (h + 1) % 3}) ++ends[coarse.faces[h / 3][i]];
+  }
+  ASSERT_FALSE(ends.empty());
+  for (const auto& [v, count] : ends) {
+    EXPECT_EQ(count, 4) << v;  // of two edges
+    const Vec3 p = coarse.positions[v] + mesh.origin;
+    EXPECT_NEAR(std::hypot(p.x(), p.y()), kCylinderRadius, 1e-9);
+    EXPECT_NEAR(std::abs(p.z()), kCylinderHalfHeight, 1e-9);
+  }
+  // A vertex on a rim serves cap and side, so most are there.
+  EXPECT_GT(ends.size(), coarse.positions.size() / 2);
+}
+
+TEST(CollapseTo, KeepsTheBoundary) {
+  const TriMesh mesh = sample(SampleKind::open_cylinder, 3000);
+  const CoarseSurface coarse = collapsed(mesh, 40);
+  for (std::size_t h = 0; h < coarse.is_barrier.size(); ++h) {
+    if (coarse.is_barrier[h] == 0) continue;
+    const Vec3 p = coarse.positions[coarse.faces[h / 3][h % 3]] + mesh.origin;
+    EXPECT_NEAR(std::abs(p.z()), kCylinderHalfHeight, 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace strake

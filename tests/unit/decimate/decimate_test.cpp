@@ -1,0 +1,148 @@
+#include "stages/decimate/decimate.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "common/geometry/cell_error/cell_error.h"
+#include "common/geometry/poly_topology/poly_topology.h"
+#include "common/geometry/samples/samples.h"
+#include "common/geometry/topology/topology.h"
+#include "tests/support/import_support.h"
+#include "tests/support/mesh_support.h"
+
+namespace strake {
+namespace {
+
+/// The cube [0, 1]^3, each side of n x n squares cut into triangles.
+PolyMesh cube(int n) {
+  PolyMesh mesh;
+  std::map<std::array<int, 3>, Index> vertices;
+  const auto vertex = [&](const std::array<int, 3>& at) {
+    const auto [entry, is_new] = vertices.try_emplace(at, mesh.vertex_count());
+    if (is_new) mesh.positions.push_back(Vec3(at[0], at[1], at[2]) / n);
+    return entry->second;
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const int level : {0, n}) {
+      for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < n; ++j) {
+          const auto at = [&](int u, int v) {
+            std::array<int, 3> place = {};
+            place[axis] = level;
+            place[(axis + 1) % 3] = level == n ? u : v;
+            place[(axis + 2) % 3] = level == n ? v : u;
+            return vertex(place);
+          };
+          const Index a = at(i, j);
+          const Index b = at(i + 1, j);
+          const Index c = at(i + 1, j + 1);
+          const Index d = at(i, j + 1);
+          mesh.add_face(std::vector<Index>{a, b, c});
+          mesh.add_face(std::vector<Index>{a, c, d});
+        }
+      }
+    }
+  }
+  return mesh;
+}
+
+QuadMesh decimated(const TriMesh& mesh, std::int64_t vertices, Report* report = nullptr) {
+  DecimateOptions options;
+  options.vertices = vertices;
+  SilentObserver observer;
+  DecimateResult result = decimate_to_quads(mesh, options, observer);
+  if (report != nullptr) *report = result.report;
+  return result.quads;
+}
+
+TriMesh sample(SampleKind kind, std::int64_t faces) {
+  SampleOptions options;
+  options.faces = faces;
+  return support::import_tri_mesh(make_sample(kind, options));
+}
+
+TEST(DecimateToQuads, ACubeOfManyFacesIsSixQuads) {
+  for (const Vec3& shift : {Vec3(0, 0, 0), Vec3(1e6, -2e6, 3e6)}) {
+    PolyMesh input = cube(6);
+    for (Vec3& p : input.positions) p += shift;
+    const PolyMesh result = decimated(support::import_tri_mesh(input), 8).mesh;
+    ASSERT_EQ(result.vertex_count(), 8);
+    ASSERT_EQ(result.face_count(), 6);
+    for (Index f = 0; f < 6; ++f) EXPECT_EQ(result.face(f).size(), 4u);
+    for (const Vec3& p : result.positions) {
+      for (int i = 0; i < 3; ++i) {
+        const double x = p[i] - shift[i];
+        EXPECT_TRUE(x == 0 || x == 1) << x;
+      }
+    }
+  }
+}
+
+TEST(DecimateToQuads, KeepsTheTopology) {
+  for (const SampleKind kind : {SampleKind::sphere, SampleKind::torus, SampleKind::open_cylinder,
+                                SampleKind::saddle, SampleKind::part}) {
+    const TriMesh mesh = sample(kind, 9000);
+    const Census wanted = census(mesh);
+    const QuadMesh result = decimated(mesh, 300);
+    EXPECT_EQ(result.mesh.vertex_count(), 300);
+    const PolyTopology topology = analyse(result.mesh);
+    EXPECT_TRUE(topology.is_oriented_manifold()) << topology.defects();
+    EXPECT_EQ(topology.euler, wanted.euler_characteristic);
+    EXPECT_EQ(topology.boundary_loops, wanted.boundary_loops);
+    EXPECT_EQ(topology.triangles + topology.quads, topology.faces);
+    // Most of the faces are quads: in pairs two thirds of the faces leave a fifth of the triangles.
+    EXPECT_GT(topology.quads, 2 * topology.triangles);
+    for (std::size_t v = 0; v < result.mesh.positions.size(); ++v) {
+      Vec3 foot = mesh.origin;
+      for (int i = 0; i < 3; ++i) {
+        foot += result.provenance.barycentric[v][i] *
+                mesh.positions[mesh.faces[result.provenance.face[v]][i]];
+      }
+      EXPECT_EQ(foot, result.mesh.positions[v]);
+    }
+  }
+}
+
+// Seven vertices are the fewest of a torus.
+TEST(DecimateToQuads, WarnsWhereTheTopologyNeedsMoreVertices) {
+  const TriMesh mesh = sample(SampleKind::torus, 3000);
+  Report report;
+  const QuadMesh result = decimated(mesh, 4, &report);
+  EXPECT_GE(result.mesh.vertex_count(), 7);
+  EXPECT_EQ(analyse(result.mesh).euler, 0);
+  EXPECT_EQ(report.warnings().size(), 1u);
+}
+
+// Edges of length h leave a sphere by h^2 / 8, and there are as many vertices as 1 / h^2.
+TEST(DecimateToQuads, DistanceIsInverseToTheCount) {
+  const TriMesh mesh = sample(SampleKind::sphere, 40000);
+  std::vector<double> counts;
+  std::vector<double> errors;
+  for (const std::int64_t count : {100, 200, 400, 800}) {
+    const QuadMesh result = decimated(mesh, count);
+    counts.push_back(static_cast<double>(count));
+    errors.push_back(measure_cells(ComparedSurfaces(mesh, result)).rms);
+  }
+  EXPECT_NEAR(support::observed_order(counts, errors), -1, 0.15);
+}
+
+TEST(DecimateToQuads, DoesNotDependOnTheUnit) {
+  SampleOptions options;
+  options.faces = 4000;
+  const PolyMesh input = make_sample(SampleKind::ellipsoid, options);
+  // A power of two changes no mantissa.
+  const PolyMesh large = support::transformed(input, 1024 * Mat3::Identity());
+  const QuadMesh a = decimated(support::import_tri_mesh(input), 120);
+  const QuadMesh b = decimated(support::import_tri_mesh(large), 120);
+  EXPECT_EQ(a.mesh.corners, b.mesh.corners);
+  ASSERT_EQ(a.mesh.positions.size(), b.mesh.positions.size());
+  for (std::size_t v = 0; v < a.mesh.positions.size(); ++v) {
+    EXPECT_EQ(Vec3(1024 * a.mesh.positions[v]), b.mesh.positions[v]);
+  }
+}
+
+}  // namespace
+}  // namespace strake
