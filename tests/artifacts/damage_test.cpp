@@ -115,6 +115,16 @@ TEST_P(Damage, NewerVersionsAreRefused) {
   EXPECT_THROW(read_artifact_info(file("a.hdf")), InputError);
 }
 
+// Before there was a cross for edges; all else was as it is.
+TEST_F(Damage, FieldsOfTheFirstVersionAreRead) {
+  Values values = make_values();
+  write(file("a.hdf"), ArtifactKind::field, values, make_provenance());
+  edit([&](hid_t opened) { H5Ldelete(opened, "/field/detail", H5P_DEFAULT); });
+  set_version(1);
+  values.field.detail.clear();
+  EXPECT_TRUE(reads_equal(file("a.hdf"), ArtifactKind::field, values));
+}
+
 TEST_P(Damage, MissingDatasetsAreRefusedByName) {
   const Values values = make_values();
   write(file("a.hdf"), GetParam(), values, make_provenance());

@@ -49,6 +49,8 @@ KillWait=2
 MinJobAge=300
 DefMemPerCPU=500
 MailProg=/bin/true
+# Not the environment of a login shell, which may take seconds for each job.
+GetEnvTimeout=0
 StateSaveLocation={folder}/state
 SlurmdSpoolDir={folder}/spool/%n
 SlurmctldPidFile={folder}/slurmctld.pid
