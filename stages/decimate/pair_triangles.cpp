@@ -24,6 +24,8 @@ constexpr double kMostTurn = 50 * kDegree;
 /// Where the other diagonal is the shorter one, and so that with which others draw the quad: most
 /// that the two are apart, in shares of the shorter.
 constexpr double kMostApart = 0.03;
+/// Triangles that are looked at for the partner of one, so that the cost stays linear.
+constexpr std::size_t kMostVisited = 1000;
 
 /// A pair of triangles that may become a quad.
 struct Joint {
@@ -135,7 +137,7 @@ class Pairing {
     std::map<Index, Index> came_from;
     std::deque<Index> waiting = {start};
     came_from[start] = kNone;
-    while (!waiting.empty()) {
+    while (!waiting.empty() && came_from.size() < kMostVisited) {
       const Index t = waiting.front();
       waiting.pop_front();
       for (const Index joint : joints_at_[t]) {
