@@ -142,8 +142,12 @@ Surface to_openmesh(const TriMesh& mesh, const SourceVertex& source_of, Surface 
     surface.status(vertex).set_feature(mesh.is_corner[v] != 0);
   }
   for (const auto& [a, b, c] : mesh.faces) {
-    surface.add_face(OpenMesh::VertexHandle(a), OpenMesh::VertexHandle(b),
-                     OpenMesh::VertexHandle(c));
+    const auto face = surface.add_face(OpenMesh::VertexHandle(a), OpenMesh::VertexHandle(b),
+                                       OpenMesh::VertexHandle(c));
+    if (!face.is_valid()) {
+      throw AlgorithmError(
+          "OpenMesh cannot build the surface to decimate; please report this model");
+    }
   }
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
     if (mesh.is_feature[h] == 0) continue;

@@ -27,6 +27,7 @@ struct CoarseSurface {
 /// lines only move along them, until nothing else is left. In parts of the result that are flat
 /// diagonals are turned where that makes the smallest angle larger.
 /// \return the surface's topology, with `count` vertices, or as few as that allows
+/// \throw AlgorithmError where OpenMesh does not take the surface
 CoarseSurface collapse_to(const TriMesh& mesh, Index count, Observer& observer);
 
 }  // namespace strake

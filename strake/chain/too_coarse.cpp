@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "common/core/error.h"
 #include "common/geometry/cell_error/cell_error.h"
 #include "common/geometry/mesh_measures.h"
 #include "strake/chain/crossing_places.h"
@@ -105,9 +106,14 @@ void decimate_if_too_coarse(Session& session, const GoalStages& stages, Counted 
   session.say(fmt::format("lines are coarse for this shape at {} {}; decimating to compare", wanted,
                           name_of(counted)));
   Session other = session;
-  decimate_to_count(other, stages, goal);
-  other.provide_as("quads", other.get<QuadMesh>("decimated"), "decimated");
-  other.run(stages.fit);
+  try {
+    decimate_to_count(other, stages, goal);
+    other.provide_as("quads", other.get<QuadMesh>("decimated"), "decimated");
+    other.run(stages.fit);
+  } catch (const AlgorithmError& error) {
+    session.say(std::string("warning: kept the lines: ") + error.what());
+    return;
+  }
   if (!is_much_better(faults_of(other, goal), faults)) return;
   session = other;
   session.keep(stages.decimate);
