@@ -5,6 +5,7 @@
 
 #include "common/core/error.h"
 #include "common/geometry/carry_attributes.h"
+#include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_topology.h"
 #include "common/geometry/topology/topology.h"
 #include "stages/decimate/collapse.h"
@@ -55,6 +56,7 @@ DecimateResult decimate_to_quads(const TriMesh& mesh, const DecimateOptions& opt
   result.quads.mesh = pair_triangles(coarse);
   for (Vec3& p : result.quads.mesh.positions) p += mesh.origin;
   result.quads.provenance = provenance_of(mesh, coarse.vertex);
+  begin_faces_at_fans(result.quads.mesh);
   result.quads.mesh.attributes = carry_attributes(mesh, result.quads.mesh, result.quads.provenance);
   const PolyTopology topology = analyse(result.quads.mesh);
   check_result(mesh, topology);

@@ -241,6 +241,7 @@ FitResult fit_vertices(const TriMesh& mesh, const PrincipalField* field, const Q
     divided = fitting::divide_crossing_faces(result.quads.mesh);
     refilled = fit.refill(mesh, result.quads);
   }
+  begin_faces_at_fans(result.quads.mesh);
   result.quads.mesh.attributes = carry_attributes(mesh, result.quads.mesh, result.quads.provenance);
   result.report.set("fit.parted_vertices", std::int64_t{parted});
   result.report.set("fit.divided_faces", std::int64_t{divided});

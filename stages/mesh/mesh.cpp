@@ -6,6 +6,7 @@
 
 #include "common/core/error.h"
 #include "common/geometry/carry_attributes.h"
+#include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_topology.h"
 #include "common/geometry/topology/topology.h"
 #include "stages/mesh/flats.h"
@@ -232,6 +233,7 @@ MeshResult mesh_lines(const TriMesh& mesh, const LineSet& lines, const MeshOptio
   }
   MeshResult result;
   result.quads = assemble(mesh, cells.graph);
+  begin_faces_at_fans(result.quads.mesh);
   result.quads.mesh.attributes = carry_attributes(mesh, result.quads.mesh, result.quads.provenance);
 
   Report& report = result.report;

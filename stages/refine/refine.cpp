@@ -428,6 +428,7 @@ RefineResult refine_cells(const TriMesh& mesh, const QuadMesh& quads, const Refi
   if (const PolyTopology topology = analyse(result.quads.mesh); !topology.is_oriented_manifold()) {
     throw AlgorithmError("the divided cells are no oriented manifold: " + topology.defects());
   }
+  begin_faces_at_fans(result.quads.mesh);
   result.quads.mesh.attributes = carry_attributes(mesh, result.quads.mesh, result.quads.provenance);
   result.report.set("refine.rounds", rounds);
   result.report.set(

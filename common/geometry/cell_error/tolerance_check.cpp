@@ -110,21 +110,34 @@ std::vector<Worst> check_surface(const SurfaceDistance& own, const SurfaceDistan
   return worst;
 }
 
+/// \param cell  [triangles of the result] its face
+std::vector<Excess> check_both_ways(const SurfaceDistance& result, const std::vector<Index>& cell,
+                                    const SurfaceDistance& input, double tolerance) {
+  std::vector<Excess> excess;
+  const std::vector<Worst> of_result = check_surface(result, input, tolerance);
+  for (std::size_t t = 0; t < of_result.size(); ++t) {
+    const Worst& worst = of_result[t];
+    if (worst.on_other != kNone) excess.push_back({worst.distance, worst.place, cell[t], kNone});
+  }
+  const std::vector<Worst> of_input = check_surface(input, result, tolerance);
+  for (std::size_t t = 0; t < of_input.size(); ++t) {
+    const Worst& worst = of_input[t];
+    if (worst.on_other == kNone) continue;
+    excess.push_back({worst.distance, worst.place, cell[worst.on_other], static_cast<Index>(t)});
+  }
+  return excess;
+}
+
 }  // namespace
 
 std::vector<Excess> check_tolerance(const ComparedSurfaces& surfaces, double tolerance) {
-  std::vector<Excess> excess;
-  const std::vector<Index>& cell = surfaces.triangles().face;
-  const std::vector<Worst> result = check_surface(surfaces.result(), surfaces.input(), tolerance);
-  for (std::size_t t = 0; t < result.size(); ++t) {
-    const Worst& worst = result[t];
-    if (worst.on_other != kNone) excess.push_back({worst.distance, worst.place, cell[t], kNone});
-  }
-  const std::vector<Worst> input = check_surface(surfaces.input(), surfaces.result(), tolerance);
-  for (std::size_t t = 0; t < input.size(); ++t) {
-    const Worst& worst = input[t];
-    if (worst.on_other == kNone) continue;
-    excess.push_back({worst.distance, worst.place, cell[worst.on_other], static_cast<Index>(t)});
+  std::vector<Excess> excess =
+      check_both_ways(surfaces.result(), surfaces.triangles().face, surfaces.input(), tolerance);
+  if (!excess.empty()) return excess;
+  for (const FaceTriangles& other : other_triangulations(surfaces.faces())) {
+    const SurfaceDistance result(surfaces.positions(), other.corners);
+    excess = check_both_ways(result, other.face, surfaces.input(), tolerance);
+    if (!excess.empty()) break;
   }
   return excess;
 }

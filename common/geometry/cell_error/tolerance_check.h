@@ -19,7 +19,8 @@ struct Excess {
 /// Not by samples: the distance to one triangle is convex, so where all corners of a piece are
 /// within the tolerance of the same triangle of the other surface, all of the piece is. Pieces for
 /// which that does not hold are halved, down to a small share of the tolerance; what is undecided
-/// then counts as an excess.
+/// then counts as an excess. Faces that rounding alone decides how to split are checked in either
+/// way.
 /// \param tolerance  model units, positive
 /// \return the worst place of each triangle, of either surface, that is not proven to be within the
 ///         tolerance everywhere; none where all is. Deterministic for any thread count

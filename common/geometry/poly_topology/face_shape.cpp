@@ -14,13 +14,24 @@ namespace {
 
 constexpr double kConcaveTolerance = 1e-9;
 constexpr std::size_t kLargePolygon = 256;
+/// Areas and lengths that differ by less than this share of the larger one are told apart by
+/// rounding alone.
+constexpr double kTie = 1e-9;
+
+/// How comparisons end that rounding decides, as whether a corner lies on an edge.
+struct Ties {
+  double area = 0;    ///< share of the face's area below which a triangle has none
+  double length = 0;  ///< share by which a later diagonal or ear must be better to be taken
+};
 
 /// Cuts ears off one polygon.
 class EarCutter {
  public:
-  EarCutter(std::span<const Vec3> positions, std::span<const Index> face)
+  EarCutter(std::span<const Vec3> positions, std::span<const Index> face, const Ties& ties)
       : positions_(positions),
         normal_(newell_normal(positions, face)),
+        no_area_(ties.area * normal_.squaredNorm()),
+        better_(1 + ties.length),
         ring_(face.begin(), face.end()),
         take_first_(face.size() > kLargePolygon) {}
 
@@ -44,8 +55,8 @@ class EarCutter {
 
   [[nodiscard]] bool is_empty(Index a, Index b, Index c) const {
     return std::none_of(ring_.begin(), ring_.end(), [&](Index q) {
-      return q != a && q != b && q != c && area_along_normal(a, b, q) >= 0 &&
-             area_along_normal(b, c, q) >= 0 && area_along_normal(c, a, q) >= 0;
+      return q != a && q != b && q != c && area_along_normal(a, b, q) >= no_area_ &&
+             area_along_normal(b, c, q) >= no_area_ && area_along_normal(c, a, q) >= no_area_;
     });
   }
 
@@ -59,7 +70,7 @@ class EarCutter {
       const Index c = after(i);
       if (area_along_normal(a, b, c) <= 0) continue;
       const double shape = smallest_angle(positions_[a], positions_[b], positions_[c]);
-      if (shape <= best || !is_empty(a, b, c)) continue;
+      if (shape <= better_ * best || !is_empty(a, b, c)) continue;
       best = shape;
       best_at = i;
       if (take_first_) {
@@ -72,22 +83,25 @@ class EarCutter {
 
   std::span<const Vec3> positions_;
   Vec3 normal_;
+  double no_area_;
+  double better_;
   std::vector<Index> ring_;
   bool take_first_;
   std::size_t start_ = 0;  // where the search for the next ear begins
 };
 
-void triangulate_quad(std::span<const Vec3> positions, std::span<const Index> c,
+void triangulate_quad(std::span<const Vec3> positions, std::span<const Index> c, const Ties& ties,
                       std::vector<std::array<Index, 3>>& triangles) {
   const Vec3 normal = newell_normal(positions, c);
+  const double no_area = ties.area * normal.squaredNorm();
   const auto faces_along = [&](int i, int j, int k) {
     const Vec3& p = positions[c[i]];
-    return (positions[c[j]] - p).cross(positions[c[k]] - p).dot(normal) > 0;
+    return (positions[c[j]] - p).cross(positions[c[k]] - p).dot(normal) > no_area;
   };
   const bool valid_02 = faces_along(0, 1, 2) && faces_along(0, 2, 3);
   const bool valid_13 = faces_along(1, 2, 3) && faces_along(1, 3, 0);
   const bool shorter_02 = (positions[c[0]] - positions[c[2]]).squaredNorm() <=
-                          (positions[c[1]] - positions[c[3]]).squaredNorm();
+                          (1 + ties.length) * (positions[c[1]] - positions[c[3]]).squaredNorm();
   if (valid_02 != valid_13 ? valid_02 : shorter_02) {
     triangles.push_back({c[0], c[1], c[2]});
     triangles.push_back({c[0], c[2], c[3]});
@@ -95,6 +109,50 @@ void triangulate_quad(std::span<const Vec3> positions, std::span<const Index> c,
     triangles.push_back({c[1], c[2], c[3]});
     triangles.push_back({c[1], c[3], c[0]});
   }
+}
+
+void triangulate(std::span<const Vec3> positions, std::span<const Index> face, const Ties& ties,
+                 std::vector<std::array<Index, 3>>& triangles) {
+  if (face.size() < 3) return;
+  if (face.size() == 3) {
+    triangles.push_back({face[0], face[1], face[2]});
+  } else if (face.size() == 4) {
+    triangulate_quad(positions, face, ties, triangles);
+  } else {
+    EarCutter(positions, face, ties).cut(triangles);
+  }
+}
+
+FaceTriangles triangulate_all(const PolyMesh& mesh, std::span<const Vec3> positions,
+                              const Ties& ties) {
+  FaceTriangles result;
+  std::vector<std::size_t> first = {0};  // of a face, and the end
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const std::size_t sides = mesh.face(f).size();
+    first.push_back(first.back() + (sides > 2 ? sides - 2 : 0));
+    result.face.resize(first.back(), f);
+  }
+  result.corners.resize(first.back());
+  tbb::parallel_for(tbb::blocked_range<Index>(0, mesh.face_count()), [&](const auto& faces) {
+    std::vector<std::array<Index, 3>> own;
+    for (Index f = faces.begin(); f < faces.end(); ++f) {
+      own.clear();
+      triangulate(positions, mesh.face(f), ties, own);
+      std::ranges::copy(own, result.corners.begin() + static_cast<std::ptrdiff_t>(first[f]));
+    }
+  });
+  return result;
+}
+
+/// The corner that all triangles of a face share; where there is none, the first one of the face.
+std::size_t fan_corner(std::span<const Index> face,
+                       std::span<const std::array<Index, 3>> triangles) {
+  const auto is_shared = [&](Index v) {
+    return std::ranges::all_of(triangles,
+                               [&](const auto& t) { return std::ranges::find(t, v) != t.end(); });
+  };
+  const auto at = std::ranges::find_if(face, is_shared);
+  return at == face.end() ? 0 : static_cast<std::size_t>(at - face.begin());
 }
 
 }  // namespace
@@ -125,14 +183,7 @@ bool is_concave_face(std::span<const Vec3> positions, std::span<const Index> fac
 
 void triangulate_face(std::span<const Vec3> positions, std::span<const Index> face,
                       std::vector<std::array<Index, 3>>& triangles) {
-  if (face.size() < 3) return;
-  if (face.size() == 3) {
-    triangles.push_back({face[0], face[1], face[2]});
-  } else if (face.size() == 4) {
-    triangulate_quad(positions, face, triangles);
-  } else {
-    EarCutter(positions, face).cut(triangles);
-  }
+  triangulate(positions, face, {}, triangles);
 }
 
 FaceTriangles triangulate_faces(const PolyMesh& mesh) {
@@ -140,23 +191,35 @@ FaceTriangles triangulate_faces(const PolyMesh& mesh) {
 }
 
 FaceTriangles triangulate_faces(const PolyMesh& mesh, std::span<const Vec3> positions) {
-  FaceTriangles result;
-  std::vector<std::size_t> first = {0};  // of a face, and the end
+  return triangulate_all(mesh, positions, {});
+}
+
+std::vector<FaceTriangles> other_triangulations(const PolyMesh& mesh) {
+  std::vector<FaceTriangles> all = {triangulate_faces(mesh)};
+  for (const double area : {-kTie, kTie}) {
+    for (const double length : {-kTie, kTie}) {
+      FaceTriangles other = triangulate_all(mesh, mesh.positions, {area, length});
+      const auto is_same = [&](const FaceTriangles& t) { return t.corners == other.corners; };
+      if (std::ranges::none_of(all, is_same)) all.push_back(std::move(other));
+    }
+  }
+  all.erase(all.begin());
+  return all;
+}
+
+void begin_faces_at_fans(PolyMesh& mesh) {
+  const FaceTriangles all = triangulate_faces(mesh);
+  std::size_t first = 0;
   for (Index f = 0; f < mesh.face_count(); ++f) {
     const std::size_t sides = mesh.face(f).size();
-    first.push_back(first.back() + (sides > 2 ? sides - 2 : 0));
-    result.face.resize(first.back(), f);
+    if (sides < 3) continue;
+    const std::span own(all.corners.data() + first, sides - 2);
+    first += sides - 2;
+    if (sides == 3) continue;
+    const auto corners = mesh.corners.begin() + mesh.offsets[f];
+    std::rotate(corners, corners + static_cast<std::ptrdiff_t>(fan_corner(mesh.face(f), own)),
+                corners + static_cast<std::ptrdiff_t>(sides));
   }
-  result.corners.resize(first.back());
-  tbb::parallel_for(tbb::blocked_range<Index>(0, mesh.face_count()), [&](const auto& faces) {
-    std::vector<std::array<Index, 3>> own;
-    for (Index f = faces.begin(); f < faces.end(); ++f) {
-      own.clear();
-      triangulate_face(positions, mesh.face(f), own);
-      std::ranges::copy(own, result.corners.begin() + static_cast<std::ptrdiff_t>(first[f]));
-    }
-  });
-  return result;
 }
 
 }  // namespace strake

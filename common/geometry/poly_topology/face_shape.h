@@ -42,4 +42,15 @@ FaceTriangles triangulate_faces(const PolyMesh& mesh);
 /// Likewise, with its vertices elsewhere. \param positions  [V]
 FaceTriangles triangulate_faces(const PolyMesh& mesh, std::span<const Vec3> positions);
 
+/// What rounding alone could make of `triangulate_faces`, where it gives anything else: faces with
+/// a corner on the straight line between two others, or diagonals of equal length, may be cut
+/// otherwise by another program, or after the mesh is moved. Not every mixture of the cases.
+std::vector<FaceTriangles> other_triangulations(const PolyMesh& mesh);
+
+/// Turns the corners of faces so that a fan from the first one has the triangles of
+/// `triangulate_face`, where these are a fan: always up to five corners. So programs that cut faces
+/// into fans see the surface that is measured here.
+/// \pre the mesh has no texture coordinates, which belong to corners
+void begin_faces_at_fans(PolyMesh& mesh);
+
 }  // namespace strake

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <random>
 
 #include "tests/unit/evaluate/shapes.h"
 
@@ -112,6 +114,64 @@ TEST(FaceShape, EveryTriangleKnowsItsFace) {
     }
   }
   for (Index f = 0; f < mesh.face_count(); ++f) EXPECT_EQ(count[f] + 2, mesh.face(f).size());
+}
+
+/// A closed polygon around the origin, near a plane, not always convex.
+PolyMesh rough_polygon(Index sides, std::mt19937& random) {
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::vector<Vec2> outline;
+  for (Index i = 0; i < sides; ++i) {
+    const double angle = 2 * std::numbers::pi * i / sides;
+    outline.push_back((1 + 0.5 * uniform(random)) * Vec2(std::cos(angle), std::sin(angle)));
+  }
+  PolyMesh mesh = polygon(outline);
+  for (Vec3& p : mesh.positions) p += 0.2 * Vec3(uniform(random), uniform(random), uniform(random));
+  return mesh;
+}
+
+using Triangles = std::vector<std::array<Index, 3>>;
+
+/// The same for the same triangles in any order, beginning with any corner.
+Triangles sorted(Triangles triangles) {
+  for (auto& t : triangles) std::ranges::rotate(t, std::ranges::min_element(t));
+  std::ranges::sort(triangles);
+  return triangles;
+}
+
+// Most programs cut polygons into fans around the first corner.
+TEST(FaceShape, FacesBegunAtFansAreMeasuredAsFans) {
+  std::mt19937 random(3);
+  for (int trial = 0; trial < 300; ++trial) {
+    const Index sides = 3 + trial % 3;
+    PolyMesh mesh = rough_polygon(sides, random);
+    const Triangles measured = sorted(triangulate_faces(mesh).corners);
+    begin_faces_at_fans(mesh);
+    Triangles fan;
+    for (Index i = 1; i + 1 < sides; ++i) {
+      fan.push_back({mesh.face(0)[0], mesh.face(0)[i], mesh.face(0)[i + 1]});
+    }
+    EXPECT_EQ(sorted(fan), measured) << trial;
+    EXPECT_EQ(sorted(triangulate_faces(mesh).corners), measured) << trial;
+  }
+}
+
+TEST(FaceShape, FacesOfManyCornersKeepTheirsWhereThereIsNoFan) {
+  const std::vector<Vec2> dart = {kDart[1], kDart[2], kDart[3], kDart[0]};
+  PolyMesh mesh = shapes::joined(polygon(star(5)), polygon(dart));
+  const PolyMesh before = mesh;
+  begin_faces_at_fans(mesh);
+  EXPECT_TRUE(std::ranges::equal(mesh.face(0), before.face(0)));
+  EXPECT_EQ(mesh.face(1)[0], before.face(1)[1]);  // a dart is cut at its reflex corner
+}
+
+TEST(FaceShape, OnlyTiesAreCutOtherwise) {
+  std::mt19937 random(4);
+  for (int trial = 0; trial < 100; ++trial) {
+    EXPECT_TRUE(other_triangulations(rough_polygon(4 + trial % 3, random)).empty());
+  }
+  const std::vector<FaceTriangles> others = other_triangulations(shapes::square(2, 0));
+  ASSERT_EQ(others.size(), 1U);  // its diagonals have the same length
+  EXPECT_NE(sorted(others[0].corners), sorted(triangulate_faces(shapes::square(2, 0)).corners));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <random>
 
@@ -66,6 +67,48 @@ TEST(ToleranceCheck, FindsWhatLiesBetweenAllCorners) {
   // On the result the faces below are inclined by h / 0.6: the distance is cos(atan(h / 0.6)) h.
   EXPECT_FALSE(is_within(c, 0.999 * h));
   EXPECT_TRUE(is_within(c, 1.01 * h));
+}
+
+/// A pentagon that is cut in one of two ways, as a corner of it lies, along its normal, on the
+/// straight line between two others: only one of them is the input. Where rounding decides, both
+/// have to be within the tolerance.
+TEST(ToleranceCheck, HoldsHoweverTiesAreCut) {
+  const auto pentagon = [](double y) {
+    PolyMesh mesh;
+    mesh.positions = {Vec3(-0.1, 3, 0.8), Vec3(-2.2, 2.8, 0.1), Vec3(-1.8, 0, 0),
+                      Vec3(-0.2, y, 0.6), Vec3(0.4, 0, -0.1)};
+    mesh.add_face(std::array<Index, 5>{0, 1, 2, 3, 4});
+    return mesh;
+  };
+  const auto turn = [&](double y) {  // of corner 3, against the normal of the whole
+    const PolyMesh mesh = pentagon(y);
+    const auto& p = mesh.positions;
+    return (p[3] - p[2]).cross(p[4] - p[2]).dot(newell_normal(p, mesh.face(0)));
+  };
+  double reflex = 1;
+  double convex = -1;
+  ASSERT_LT(turn(reflex), 0);
+  ASSERT_GT(turn(convex), 0);
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (reflex + convex);
+    (turn(middle) > 0 ? convex : reflex) = middle;
+  }
+  for (const double y : {reflex, convex, convex - 1e-12, reflex + 1e-12}) {
+    const PolyMesh result = pentagon(y);
+    std::vector<FaceTriangles> cuts = other_triangulations(result);
+    ASSERT_FALSE(cuts.empty());
+    cuts.push_back(triangulate_faces(result));
+    for (const FaceTriangles& cut : cuts) {
+      PolyMesh input;
+      input.positions = result.positions;
+      for (const auto& triangle : cut.corners) input.add_face(triangle);
+      Case c;
+      c.mesh = support::plain_tri_mesh(input);
+      c.quads.mesh = result;
+      EXPECT_FALSE(is_within(c, 0.1));
+      EXPECT_TRUE(is_within(c, 0.7));  // as far as corner 3 is from the others' plane, and more
+    }
+  }
 }
 
 /// On random terrain: where the check accepts, no sample is farther; where it refuses, the largest
