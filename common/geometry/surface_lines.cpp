@@ -8,6 +8,8 @@ namespace {
 
 /// On an edge or at a vertex where barycentric coordinates are this near to 0 or 1.
 constexpr double kOnEdge = 1e-9;
+/// A line runs along a straight way that is this much shorter, at most.
+constexpr double kLongestLine = 2;
 
 }  // namespace
 
@@ -111,6 +113,11 @@ std::vector<SurfaceLines::Place> SurfaceLines::way_between(const SurfacePoint& a
   try_way(a, b);
   try_way(b, a);  // boundary half-edges have one sense only
   return best;
+}
+
+bool SurfaceLines::has_along(const SurfacePoint& a, const SurfacePoint& b) const {
+  const double distance = (place_of(mesh_, a) - place_of(mesh_, b)).norm();
+  return !way_between(a, b, kLongestLine * distance).empty();
 }
 
 }  // namespace strake

@@ -27,6 +27,9 @@ class SurfaceLines {
   /// none is shorter than this, model units.
   [[nodiscard]] std::vector<Place> way_between(const SurfacePoint& a, const SurfacePoint& b,
                                                double longest) const;
+  /// Whether the straight way between two points runs along a line that joins them: by a way that
+  /// is at most twice as long.
+  [[nodiscard]] bool has_along(const SurfacePoint& a, const SurfacePoint& b) const;
   /// Relative to the mesh's origin.
   [[nodiscard]] Vec3 position(const Place& at) const;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/geometry/quad_division.h"
 #include "stages/mesh/cell_shape.h"
 
 namespace strake {
@@ -10,8 +11,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The best division of a polygon into quads, by dynamic programming over the chords (i, j) that
-/// close the run of corners from i to j.
+/// Finds the best division of a patch.
 class Divider {
  public:
   Divider(const PolygonGraph& graph, const Patch& patch, const DegreePenalty& penalty, double worst)
@@ -30,32 +30,34 @@ class Divider {
         if (graph.graph().from(d) == node || graph.graph().to(d) == node) --base_degree_[i];
       }
     }
-    best_.assign(n * n, kUnknown);
-    choice_.resize(n * n);
   }
 
-  std::optional<Division> run() {
-    const std::size_t n = p_.size();
-    if (!(best(0, n - 1) < kInfinity)) return std::nullopt;
+  [[nodiscard]] std::optional<Division> run() const {
+    std::optional<QuadDivision> cheapest = cheapest_division(
+        p_.size(),
+        [this](std::size_t i, std::size_t a, std::size_t b, std::size_t j) {
+          return quad(i, a, b, j);
+        },
+        [this](std::size_t i, std::size_t j) { return diagonal(i, j); });
+    if (!cheapest) return std::nullopt;
     Division division;
-    collect(0, n - 1, division.diagonals);
+    division.diagonals = std::move(cheapest->diagonals);
     std::vector<Index> degree = base_degree_;
     for (const auto& [i, j] : division.diagonals) {
       ++degree[i];
       ++degree[j];
     }
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < p_.size(); ++i) {
       if (degree[i] < 3 && graph_.rank(node_at(i)) == NodeRank::line) return std::nullopt;
       division.degree_gain += penalty_(patch_.outline[i], graph_.degree(patch_.outline[i])) -
                               penalty_(patch_.outline[i], degree[i]);
     }
-    division.shape_gain = shapes_now() - shapes(0, n - 1);
+    division.shape_gain = shapes_now();
+    for (const auto& [i, a, b, j] : cheapest->quads) division.shape_gain -= quad(i, a, b, j);
     return division;
   }
 
  private:
-  static constexpr double kUnknown = -kInfinity;
-
   [[nodiscard]] Index node_at(std::size_t i) const {
     return graph_.graph().from(patch_.outline[i]);
   }
@@ -90,47 +92,6 @@ class Divider {
                        [&](Index d) { return DartGraph::edge_of(d) == DartGraph::edge_of(dart); });
   }
 
-  double chord(std::size_t i, std::size_t j) {
-    return j - i == 1 ? 0.0 : diagonal(i, j) + best(i, j);
-  }
-
-  /// Least price of the corners from i to j, closed by the chord between these.
-  double best(std::size_t i, std::size_t j) {
-    double& known = best_[i * p_.size() + j];
-    if (known != kUnknown) return known;
-    double least = kInfinity;
-    for (std::size_t a = i + 1; a < j; a += 2) {
-      for (std::size_t b = a + 1; b < j; b += 2) {
-        const double shape = quad(i, a, b, j);
-        if (!(shape < least + 1)) continue;  // diagonals may lower the price a little
-        const double price = shape + chord(i, a) + chord(a, b) + chord(b, j);
-        if (!(price < least)) continue;
-        least = price;
-        choice_[i * p_.size() + j] = {a, b};
-      }
-    }
-    return best_[i * p_.size() + j] = least;
-  }
-
-  void collect(std::size_t i, std::size_t j,
-               std::vector<std::pair<std::size_t, std::size_t>>& diagonals) const {
-    const auto [a, b] = choice_[i * p_.size() + j];
-    for (const auto& [from, to] : {std::pair{i, a}, std::pair{a, b}, std::pair{b, j}}) {
-      if (to - from == 1) continue;
-      diagonals.emplace_back(from, to);
-      collect(from, to, diagonals);
-    }
-  }
-
-  [[nodiscard]] double shapes(std::size_t i, std::size_t j) const {
-    const auto [a, b] = choice_[i * p_.size() + j];
-    double sum = quad(i, a, b, j);
-    for (const auto& [from, to] : {std::pair{i, a}, std::pair{a, b}, std::pair{b, j}}) {
-      if (to - from > 1) sum += shapes(from, to);
-    }
-    return sum;
-  }
-
   /// Penalty of the cells as they are.
   [[nodiscard]] double shapes_now() const {
     double sum = 0;
@@ -155,8 +116,6 @@ class Divider {
   Polygon p_;
   Vec3 normal_ = Vec3::Zero();
   std::vector<Index> base_degree_;  ///< [n] without the edges inside
-  std::vector<double> best_;        ///< [n * n]
-  std::vector<std::pair<std::size_t, std::size_t>> choice_;
 };
 
 }  // namespace

@@ -17,9 +17,9 @@
 #include "common/geometry/cell_error/cell_error.h"
 #include "common/geometry/cell_error/tolerance_check.h"
 #include "common/geometry/face_crossings/face_crossings.h"
-#include "common/geometry/patch_fill/refill_crossing.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_topology.h"
+#include "stages/refine/changes_within.h"
 #include "stages/refine/split_cells.h"
 #include "stages/refine/surface_cells.h"
 #include "stages/refine/surface_points.h"
@@ -47,8 +47,6 @@ constexpr std::size_t kFewPlaces = 100;
 constexpr std::int64_t kRoundsOfCount = 4;
 /// Times that cells are left out because of what dividing them would do.
 constexpr int kMostRetreats = 8;
-/// Times that faces are made anew: where that is beyond the tolerance they stay the next time.
-constexpr int kMostRefills = 4;
 /// Vertices that dividing a cell gives, about.
 constexpr double kVerticesPerCell = 1.5;
 
@@ -97,6 +95,13 @@ class Refinement {
       quads_.mesh.positions[v] = e.place + mesh_.origin;
       moved[v] = 1;
     }
+  }
+
+  /// Changes what may be better in a result that is within the tolerance.
+  void finish(const SurfaceDistance& input, double tolerance) {
+    refill_within(mesh_, input, tolerance, quads_);
+    pair_odd_cells_within(mesh_, points_, tolerance, quads_);
+    cut_cells_in_doubt(mesh_, tolerance, quads_);
   }
 
   /// Divides cells. \param tolerance  that edges are to keep
@@ -289,19 +294,6 @@ std::string describe(std::vector<Excess> excess, const TriMesh& mesh, double tol
   return text;
 }
 
-/// Makes faces that cross anew where the tolerance allows it.
-void refill(const TriMesh& mesh, const SurfaceDistance& input, Refinement& refinement,
-            double tolerance) {
-  std::vector<Vec3> spared;
-  for (int i = 0; i < kMostRefills; ++i) {
-    QuadMesh refilled = refinement.quads();
-    if (refill_crossing_faces(mesh, input, refilled, tolerance, spared) == 0) return;
-    const std::vector<Excess> excess = check_tolerance(ComparedSurfaces(mesh, refilled), tolerance);
-    if (excess.empty()) return refinement.take(std::move(refilled));
-    for (const Excess& e : excess) spared.push_back(e.place);
-  }
-}
-
 /// Divides cells until all are within the tolerance. \return the rounds it took
 std::int64_t refine_to_tolerance(const TriMesh& mesh, Refinement& refinement,
                                  const RefineOptions& options, Observer& observer, Report& report) {
@@ -316,7 +308,7 @@ std::int64_t refine_to_tolerance(const TriMesh& mesh, Refinement& refinement,
     std::vector<Excess> excess = check_tolerance(surfaces, tolerance);
     report.set("refine.places_beyond", excess.size());
     if (excess.empty()) {
-      refill(mesh, surfaces.input(), refinement, tolerance);
+      refinement.finish(surfaces.input(), tolerance);
       return round;
     }
     fewest = std::min(fewest, excess.size());

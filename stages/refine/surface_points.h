@@ -25,6 +25,10 @@ class SurfacePoints {
   [[nodiscard]] bool is_on_line(const SurfacePoint& point) const {
     return !lines_.places(point).empty();
   }
+  /// Whether the straight way between two points runs along a feature or boundary line.
+  [[nodiscard]] bool has_line_along(const SurfacePoint& a, const SurfacePoint& b) const {
+    return lines_.has_along(a, b);
+  }
 
  private:
   /// The surface point nearest to a place, of those that face the same way, if there are any: not

@@ -14,14 +14,17 @@
 namespace strake {
 namespace {
 
-/// Root mean square of the distance, in mean lengths of cells, from which on it is seen.
+/// Root mean square of the distance, in mean lengths of cells, from which on a result is compared,
+/// and from which on it is seen.
+constexpr double kSuspect = 0.04;
 constexpr double kSeen = 0.06;
 /// Share of the faces that cross, from which on cells are no longer in order.
 constexpr double kManyCross = 0.02;
 /// Share of a wanted count that a result may be off by.
 constexpr double kFarOff = 0.05;
-/// Share of a distance that is much less than it.
+/// Share of a distance that is much less than it, of one that is seen and of another.
 constexpr double kMuchLess = 0.5;
+constexpr double kVeryMuchLess = 0.25;
 /// Times that the count is corrected where faces are counted, and error that is small enough.
 constexpr int kMostCorrections = 3;
 constexpr double kCountAccuracy = 0.02;
@@ -69,12 +72,13 @@ Faults faults_of(const Session& session, const Goal& goal) {
 }
 
 bool is_too_coarse(const Faults& faults) {
-  return faults.distance > kSeen || faults.crossing > kManyCross || faults.missing > kFarOff;
+  return faults.distance > kSuspect || faults.crossing > kManyCross || faults.missing > kFarOff;
 }
 
 /// Whether one of the faults is much less, and none is more.
 bool is_much_better(const Faults& other, const Faults& faults) {
-  const bool is_nearer = other.distance < kMuchLess * faults.distance;
+  const double share = faults.distance > kSeen ? kMuchLess : kVeryMuchLess;
+  const bool is_nearer = other.distance < share * faults.distance;
   const bool crosses_less = faults.crossing > kManyCross && other.crossing < kManyCross / 2;
   const bool is_as_wanted = faults.missing > kFarOff && other.missing < kFarOff / 2;
   return (is_nearer || crosses_less || is_as_wanted) && other.distance <= faults.distance &&

@@ -131,15 +131,31 @@ std::vector<Excess> check_both_ways(const SurfaceDistance& result, const std::ve
 }  // namespace
 
 std::vector<Excess> check_tolerance(const ComparedSurfaces& surfaces, double tolerance) {
-  std::vector<Excess> excess =
-      check_both_ways(surfaces.result(), surfaces.triangles().face, surfaces.input(), tolerance);
-  if (!excess.empty()) return excess;
+  return check_both_ways(surfaces.result(), surfaces.triangles().face, surfaces.input(), tolerance);
+}
+
+std::vector<Index> cells_in_doubt(const ComparedSurfaces& surfaces, double tolerance) {
+  std::vector<Index> in_doubt;
   for (const FaceTriangles& other : other_triangulations(surfaces.faces())) {
     const SurfaceDistance result(surfaces.positions(), other.corners);
-    excess = check_both_ways(result, other.face, surfaces.input(), tolerance);
-    if (!excess.empty()) break;
+    const auto excess = check_both_ways(result, other.face, surfaces.input(), tolerance);
+    if (excess.empty()) continue;
+    std::vector<char> is_near(surfaces.positions().size(), 0);
+    for (const Excess& e : excess) {
+      for (const Index v : surfaces.faces().face(e.cell)) is_near[v] = 1;
+    }
+    const auto touches = [&](Index cell) {
+      return std::ranges::any_of(surfaces.faces().face(cell),
+                                 [&](Index v) { return is_near[v] != 0; });
+    };
+    for (std::size_t t = 0; t < other.corners.size(); ++t) {
+      if (other.corners[t] == surfaces.triangles().corners[t]) continue;
+      if (touches(other.face[t])) in_doubt.push_back(other.face[t]);
+    }
   }
-  return excess;
+  std::ranges::sort(in_doubt);
+  in_doubt.erase(std::ranges::unique(in_doubt).begin(), in_doubt.end());
+  return in_doubt;
 }
 
 }  // namespace strake

@@ -19,13 +19,17 @@ struct Excess {
 /// Not by samples: the distance to one triangle is convex, so where all corners of a piece are
 /// within the tolerance of the same triangle of the other surface, all of the piece is. Pieces for
 /// which that does not hold are halved, down to a small share of the tolerance; what is undecided
-/// then counts as an excess. Faces that rounding alone decides how to split are checked in either
-/// way.
+/// then counts as an excess.
 /// \param tolerance  model units, positive
 /// \return the worst place of each triangle, of either surface, that is not proven to be within the
 ///         tolerance everywhere; none where all is. Deterministic for any thread count
 /// Cost O(n log n) with few pieces beyond the larger number of faces, unless much lies close to the
 /// tolerance.
 std::vector<Excess> check_tolerance(const ComparedSurfaces& surfaces, double tolerance);
+
+/// The faces of a result that may be beyond the tolerance for whoever measures it again, as
+/// rounding alone decides how they are cut into triangles (see `other_triangulations`), and those
+/// beside them of which that is so. \pre `check_tolerance` finds nothing \return ascending
+std::vector<Index> cells_in_doubt(const ComparedSurfaces& surfaces, double tolerance);
 
 }  // namespace strake

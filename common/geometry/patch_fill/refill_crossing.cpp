@@ -29,8 +29,6 @@ constexpr std::size_t kMostSides = 48;  ///< of an outline; filling it costs the
 /// Times that a patch which touches itself in a vertex takes in all around that.
 constexpr int kMostClosings = 3;
 constexpr int kMostRounds = 4;
-/// An edge runs along a line of the surface that joins its ends by a way at most so much longer.
-constexpr double kLongestLine = 2;
 /// Samples of a triangle for each of its sides, less one.
 constexpr int kSampleSteps = 4;
 
@@ -212,8 +210,7 @@ class Refilling {
   }
   /// Whether an edge runs along a feature or boundary line.
   [[nodiscard]] bool is_on_line(Index a, Index b) const {
-    const double distance = (place_of(mesh_, foot(a)) - place_of(mesh_, foot(b))).norm();
-    return !lines_.way_between(foot(a), foot(b), kLongestLine * distance).empty();
+    return lines_.has_along(foot(a), foot(b));
   }
 
   [[nodiscard]] bool is_wall(Index a, Index b, Kept kept) const {

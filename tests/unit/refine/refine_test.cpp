@@ -195,6 +195,47 @@ TEST(Refine, KeepsTheToleranceOnTerrain) {
   }
 }
 
+/// A grid with two cells as a triangle and a pentagon, between which lies a ridge, and its
+/// triangles as the surface. \param shift  of the pentagon's corner beyond the ridge, away from it
+Case odd_pair(double shift) {
+  Case c = grid(4, 4, [](double, double) { return 0.0; });
+  PolyMesh cut;
+  cut.positions = c.quads.mesh.positions;
+  for (Index f = 0; f < c.quads.mesh.face_count(); ++f) {
+    if (f != 5 && f != 6) cut.add_face(c.quads.mesh.face(f));
+  }
+  cut.add_face(std::array<Index, 3>{6, 7, 11});
+  cut.add_face(std::array<Index, 5>{7, 8, 13, 12, 11});
+  cut.positions[7].z() = 0.05;
+  cut.positions[11].z() = 0.05;
+  cut.positions[12] += shift * Vec3(1, 1, 0);
+  c.quads.mesh = cut;
+  PolyMesh surface;
+  surface.positions = cut.positions;
+  for (const auto& triangle : triangulate_faces(cut).corners) surface.add_face(triangle);
+  c.mesh = support::plain_tri_mesh(surface);
+  for (Index f = 0; f < c.mesh.face_count(); ++f) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index v = c.mesh.faces[f][i];
+      c.quads.provenance.face[v] = f;
+      c.quads.provenance.barycentric[v] = {double(i == 0), double(i == 1), double(i == 2)};
+    }
+  }
+  return c;
+}
+
+/// The quad on the ridge is cut along its shorter diagonal: along the ridge or across it.
+TEST(Refine, PairsOddCellsWhereTheToleranceAllowsIt) {
+  for (const auto& [shift, quads] : {std::pair{0.03, 16U}, {-0.03, 14U}}) {
+    const Case c = odd_pair(shift);
+    const QuadMesh result = refined(c, within(0.005));
+    EXPECT_EQ(sides(result.mesh).count(4), quads);
+    EXPECT_EQ(result.mesh.vertex_count(), 25);
+    EXPECT_TRUE(check_tolerance(ComparedSurfaces(c.mesh, result), 0.005).empty());
+  }
+  EXPECT_EQ(sides(refined(odd_pair(-0.03), within(0.06)).mesh).count(4), 16U);
+}
+
 TEST(Refine, LeavesWhatIsWithinTheTolerance) {
   const Case c = bent_strip(0.1);
   const QuadMesh result = refined(c, within(0.1));

@@ -70,9 +70,8 @@ TEST(ToleranceCheck, FindsWhatLiesBetweenAllCorners) {
 }
 
 /// A pentagon that is cut in one of two ways, as a corner of it lies, along its normal, on the
-/// straight line between two others: only one of them is the input. Where rounding decides, both
-/// have to be within the tolerance.
-TEST(ToleranceCheck, HoldsHoweverTiesAreCut) {
+/// straight line between two others: only one of them is the input.
+TEST(ToleranceCheck, FindsCellsThatRoundingMayCutBeyondTheTolerance) {
   const auto pentagon = [](double y) {
     PolyMesh mesh;
     mesh.positions = {Vec3(-0.1, 3, 0.8), Vec3(-2.2, 2.8, 0.1), Vec3(-1.8, 0, 0),
@@ -105,8 +104,12 @@ TEST(ToleranceCheck, HoldsHoweverTiesAreCut) {
       Case c;
       c.mesh = support::plain_tri_mesh(input);
       c.quads.mesh = result;
-      EXPECT_FALSE(is_within(c, 0.1));
-      EXPECT_TRUE(is_within(c, 0.7));  // as far as corner 3 is from the others' plane, and more
+      const ComparedSurfaces surfaces(c.mesh, c.quads);
+      const bool is_within = check_tolerance(surfaces, 0.1).empty();
+      EXPECT_TRUE(!is_within || cells_in_doubt(surfaces, 0.1) == std::vector<Index>{0});
+      // As far as corner 3 is from the others' plane, and more.
+      EXPECT_TRUE(check_tolerance(surfaces, 0.7).empty());
+      EXPECT_TRUE(cells_in_doubt(surfaces, 0.7).empty());
     }
   }
 }

@@ -1,0 +1,152 @@
+#include "stages/refine/changes_within.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <set>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "common/geometry/cell_error/tolerance_check.h"
+#include "common/geometry/face_crossings/face_crossings.h"
+#include "common/geometry/patch_fill/redivide_faces.h"
+#include "common/geometry/patch_fill/refill_crossing.h"
+#include "common/geometry/poly_topology/face_shape.h"
+#include "common/geometry/poly_topology/poly_edges.h"
+
+namespace strake {
+namespace {
+
+/// Times that faces are made anew: where that is beyond the tolerance they stay the next time.
+constexpr int kMostRefills = 4;
+/// Times that a result with odd faces paired is proven.
+constexpr int kMostPairings = 16;
+
+/// The changes that bring faces beyond the tolerance, or to cross others.
+/// \param change_of_face  [F of the result]
+/// \return [changes] 1: one of them; all where it is none of them alone
+std::vector<char> harmful_changes(const TriMesh& mesh, const QuadMesh& changed,
+                                  std::span<const Redivision> changes,
+                                  const std::vector<Index>& change_of_face, double tolerance) {
+  std::vector<char> harmful(changes.size(), 0);
+  const std::vector<Excess> excess = check_tolerance(ComparedSurfaces(mesh, changed), tolerance);
+  std::vector<std::uint8_t> is_near(changed.mesh.positions.size(), 0);  // a place beyond
+  for (const Excess& e : excess) {
+    if (change_of_face[e.cell] != kNone) {
+      harmful[change_of_face[e.cell]] = 1;
+    } else {
+      for (const Index v : changed.mesh.face(e.cell)) is_near[v] = 1;
+    }
+  }
+  std::vector<std::uint8_t> is_new(change_of_face.size(), 0);
+  for (std::size_t f = 0; f < is_new.size(); ++f) is_new[f] = change_of_face[f] != kNone ? 1 : 0;
+  const auto crossing =
+      find_crossing_faces(changed.mesh.positions, triangulate_faces(changed.mesh), is_new, {});
+  for (const auto& pair : crossing) {
+    for (const Index f : pair) {
+      if (change_of_face[f] != kNone) harmful[change_of_face[f]] = 1;
+    }
+  }
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    const auto& outline = changes[i].outline;
+    if (std::ranges::any_of(outline, [&](Index v) { return is_near[v] != 0; })) harmful[i] = 1;
+  }
+  const bool is_sound = excess.empty() && crossing.empty();
+  if (!is_sound && std::ranges::find(harmful, 1) == harmful.end()) std::ranges::fill(harmful, 1);
+  return harmful;
+}
+
+/// Whether no edge inside a face joins vertices that have an edge already.
+bool adds_no_double_edge(std::span<const Index> face,
+                         const std::vector<std::array<Index, 3>>& triangles,
+                         const PolyEdges& edges) {
+  const auto is_side = [&](Index a, Index b) {
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      if (face[i] == a && face[(i + 1) % face.size()] == b) return true;
+    }
+    return false;
+  };
+  for (const auto& triangle : triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index a = triangle[i];
+      const Index b = triangle[(i + 1) % 3];
+      const std::array<Index, 2> edge = {std::min(a, b), std::max(a, b)};
+      if (!is_side(a, b) && std::ranges::binary_search(edges.vertices, edge)) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+void refill_within(const TriMesh& mesh, const SurfaceDistance& input, double tolerance,
+                   QuadMesh& quads) {
+  std::vector<Vec3> spared;
+  for (int i = 0; i < kMostRefills; ++i) {
+    QuadMesh refilled = quads;
+    if (refill_crossing_faces(mesh, input, refilled, tolerance, spared) == 0) return;
+    const std::vector<Excess> excess = check_tolerance(ComparedSurfaces(mesh, refilled), tolerance);
+    if (excess.empty()) {
+      quads = std::move(refilled);
+      return;
+    }
+    for (const Excess& e : excess) spared.push_back(e.place);
+  }
+}
+
+void pair_odd_cells_within(const TriMesh& mesh, const SurfacePoints& points, double tolerance,
+                           QuadMesh& quads) {
+  const auto foot = [&](Index v) {
+    return SurfacePoint{quads.provenance.face[v], quads.provenance.barycentric[v]};
+  };
+  const auto may_remove = [&](Index a, Index b) {
+    return !points.has_line_along(foot(a), foot(b));
+  };
+  std::set<std::vector<Index>> refused;
+  std::vector<Redivision> changes = find_redivisions(quads.mesh, may_remove, refused);
+  for (int i = 0; i < kMostPairings && !changes.empty(); ++i) {
+    QuadMesh changed = quads;
+    std::vector<Index> change_of_face;
+    changed.mesh = redivide_faces(quads.mesh, changes, change_of_face);
+    const std::vector<char> harmful =
+        harmful_changes(mesh, changed, changes, change_of_face, tolerance);
+    std::vector<Redivision> harmless;
+    for (std::size_t c = 0; c < changes.size(); ++c) {
+      if (harmful[c] != 0) {
+        refused.insert(changes[c].outline);
+      } else {
+        harmless.push_back(std::move(changes[c]));
+      }
+    }
+    if (harmless.size() == changes.size()) {
+      quads = std::move(changed);
+      harmless.clear();
+    }
+    changes = harmless.empty() ? find_redivisions(quads.mesh, may_remove, refused)
+                               : std::move(harmless);
+  }
+}
+
+void cut_cells_in_doubt(const TriMesh& mesh, double tolerance, QuadMesh& quads) {
+  const std::vector<Index> in_doubt = cells_in_doubt(ComparedSurfaces(mesh, quads), tolerance);
+  if (in_doubt.empty()) return;
+  const PolyEdges edges = collect_edges(quads.mesh);
+  PolyMesh cut;
+  for (Index f = 0; f < quads.mesh.face_count(); ++f) {
+    const std::span<const Index> face = quads.mesh.face(f);
+    std::vector<std::array<Index, 3>> triangles;
+    if (std::ranges::binary_search(in_doubt, f)) {
+      triangulate_face(quads.mesh.positions, face, triangles);
+    }
+    if (triangles.empty() || !adds_no_double_edge(face, triangles, edges)) {
+      cut.add_face(face);
+    } else {
+      for (const auto& triangle : triangles) cut.add_face(triangle);
+    }
+  }
+  quads.mesh.corners = std::move(cut.corners);
+  quads.mesh.offsets = std::move(cut.offsets);
+}
+
+}  // namespace strake
