@@ -62,7 +62,7 @@ class Division {
   std::size_t corners_;
   const QuadPrice& quad_;
   const DiagonalPrice& diagonal_;
-  std::vector<double> best_;                                   ///< [n * n]
+  std::vector<double> best_;                                 ///< [n * n]
   std::vector<std::pair<std::size_t, std::size_t>> choice_;  ///< [n * n]
 };
 

@@ -123,8 +123,8 @@ void pair_odd_cells_within(const TriMesh& mesh, const SurfacePoints& points, dou
       quads = std::move(changed);
       harmless.clear();
     }
-    changes = harmless.empty() ? find_redivisions(quads.mesh, may_remove, refused)
-                               : std::move(harmless);
+    changes =
+        harmless.empty() ? find_redivisions(quads.mesh, may_remove, refused) : std::move(harmless);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include "common/core/poly_mesh.h"
 #include "common/core/tri_mesh.h"
+#include "common/geometry/poly_topology/face_shape.h"
 #include "tests/support/mesh_support.h"
 
 /// Surfaces over the unit square, with results of a few square faces whose vertices lie on them.
@@ -64,5 +65,13 @@ Case grid(Index n, Index cells, const Height& height) {
 inline Case bent_strip(double k) {
   return grid(64, 1, [&](double x, double) { return k * x * (1 - x) / 2; });
 }
+
+/// Faces as the result, and triangles between their vertices as the surface.
+/// \param cut  of all faces
+Case on_triangles(const PolyMesh& faces, const FaceTriangles& cut);
+
+/// A pentagon that rounding alone decides how to cut: a corner of it lies, seen along its normal,
+/// on the straight way between two others, but 0.6 off it.
+PolyMesh undecided_pentagon();
 
 }  // namespace strake::support

@@ -154,7 +154,7 @@ std::vector<Index> cells_in_doubt(const ComparedSurfaces& surfaces, double toler
     }
   }
   std::ranges::sort(in_doubt);
-  in_doubt.erase(std::ranges::unique(in_doubt).begin(), in_doubt.end());
+  in_doubt.erase(std::unique(in_doubt.begin(), in_doubt.end()), in_doubt.end());
   return in_doubt;
 }
 

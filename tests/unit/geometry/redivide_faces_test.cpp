@@ -79,8 +79,8 @@ TEST(RedivideFaces, SlantedRowsBecomeSquares) {
 }
 
 TEST(RedivideFaces, ATriangleAndAPentagonBecomeTwoQuads) {
-  const PolyMesh mesh = mesh_of(
-      {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 5}, {1, 2, 3, 4, 5}});
+  const PolyMesh mesh = mesh_of({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {0, 1, 0}},
+                                {{0, 1, 5}, {1, 2, 3, 4, 5}});
   const PolyMesh result = redivided(mesh, 1);
   EXPECT_EQ(result.face_count(), 2);
   EXPECT_EQ(odd_faces(result), 0);
@@ -109,8 +109,8 @@ TEST(RedivideFaces, DoesNotFlattenRidges) {
 
 /// A vertex with three edges between four triangles would have two.
 TEST(RedivideFaces, LeavesNoVertexWithTwoEdges) {
-  const PolyMesh mesh = mesh_of({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}, {0, 0, 0}},
-                                {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
+  const PolyMesh mesh =
+      mesh_of({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}, {0, 0, 0}}, {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
   EXPECT_TRUE(find_redivisions(mesh, kAny, {}).empty());
 }
 

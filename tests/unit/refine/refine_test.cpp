@@ -198,7 +198,7 @@ TEST(Refine, KeepsTheToleranceOnTerrain) {
 /// A grid with two cells as a triangle and a pentagon, between which lies a ridge, and its
 /// triangles as the surface. \param shift  of the pentagon's corner beyond the ridge, away from it
 Case odd_pair(double shift) {
-  Case c = grid(4, 4, [](double, double) { return 0.0; });
+  const Case c = grid(4, 4, [](double, double) { return 0.0; });
   PolyMesh cut;
   cut.positions = c.quads.mesh.positions;
   for (Index f = 0; f < c.quads.mesh.face_count(); ++f) {
@@ -209,19 +209,7 @@ Case odd_pair(double shift) {
   cut.positions[7].z() = 0.05;
   cut.positions[11].z() = 0.05;
   cut.positions[12] += shift * Vec3(1, 1, 0);
-  c.quads.mesh = cut;
-  PolyMesh surface;
-  surface.positions = cut.positions;
-  for (const auto& triangle : triangulate_faces(cut).corners) surface.add_face(triangle);
-  c.mesh = support::plain_tri_mesh(surface);
-  for (Index f = 0; f < c.mesh.face_count(); ++f) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Index v = c.mesh.faces[f][i];
-      c.quads.provenance.face[v] = f;
-      c.quads.provenance.barycentric[v] = {double(i == 0), double(i == 1), double(i == 2)};
-    }
-  }
-  return c;
+  return support::on_triangles(cut, triangulate_faces(cut));
 }
 
 /// The quad on the ridge is cut along its shorter diagonal: along the ridge or across it.
@@ -234,6 +222,17 @@ TEST(Refine, PairsOddCellsWhereTheToleranceAllowsIt) {
     EXPECT_TRUE(check_tolerance(ComparedSurfaces(c.mesh, result), 0.005).empty());
   }
   EXPECT_EQ(sides(refined(odd_pair(-0.03), within(0.06)).mesh).count(4), 16U);
+}
+
+TEST(Refine, CutsCellsThatOthersWouldCutBeyondTheTolerance) {
+  const PolyMesh pentagon = support::undecided_pentagon();
+  const Case c = support::on_triangles(pentagon, triangulate_faces(pentagon));
+  ASSERT_EQ(cells_in_doubt(ComparedSurfaces(c.mesh, c.quads), 0.1), std::vector<Index>{0});
+  const QuadMesh result = refined(c, within(0.1));
+  EXPECT_EQ(sides(result.mesh), (std::multiset<std::size_t>{3, 3, 3}));
+  EXPECT_TRUE(check_tolerance(ComparedSurfaces(c.mesh, result), 0.1).empty());
+  EXPECT_TRUE(cells_in_doubt(ComparedSurfaces(c.mesh, result), 0.1).empty());
+  EXPECT_EQ(sides(refined(c, within(0.7)).mesh), (std::multiset<std::size_t>{5}));
 }
 
 TEST(Refine, LeavesWhatIsWithinTheTolerance) {
