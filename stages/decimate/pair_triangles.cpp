@@ -8,9 +8,11 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "common/geometry/angles.h"
+#include "common/geometry/patch_fill/redivide_faces.h"
 #include "common/geometry/poly_topology/face_shape.h"
 
 namespace strake {
@@ -26,6 +28,10 @@ constexpr double kMostTurn = 50 * kDegree;
 constexpr double kMostApart = 0.03;
 /// Triangles that are looked at for the partner of one, so that the cost stays linear.
 constexpr std::size_t kMostVisited = 1000;
+
+/// Most that corners of a flat polygon are off its plane, in shares of the farthest one's distance
+/// from the middle.
+constexpr double kFlat = 0.01;
 
 /// A pair of triangles that may become a quad.
 struct Joint {
@@ -179,6 +185,41 @@ class Pairing {
   std::vector<Index> joint_of_;                ///< [F] the one taken; kNone: a triangle is left
 };
 
+bool is_flat(const std::vector<Vec3>& positions, const std::vector<Index>& outline) {
+  const Vec3 normal = newell_normal(positions, outline).normalized();
+  Vec3 middle = Vec3::Zero();
+  for (const Index v : outline) middle += positions[v] / static_cast<double>(outline.size());
+  double off = 0;
+  double away = 0;
+  for (const Index v : outline) {
+    off = std::max(off, std::abs((positions[v] - middle).dot(normal)));
+    away = std::max(away, (positions[v] - middle).norm());
+  }
+  return off <= kFlat * away;
+}
+
+/// Makes quads of what is left of the triangles in flats by other diagonals than theirs.
+void divide_flats_anew(const CoarseSurface& surface, PolyMesh& mesh) {
+  std::set<std::array<Index, 2>> barriers;
+  for (std::size_t h = 0; h < surface.is_barrier.size(); ++h) {
+    const auto& face = surface.faces[h / 3];
+    if (surface.is_barrier[h] != 0) barriers.insert({face[h % 3], face[(h + 1) % 3]});
+  }
+  const auto may_remove = [&](Index a, Index b) {
+    return !barriers.contains({a, b}) && !barriers.contains({b, a});
+  };
+  std::set<std::vector<Index>> refused;
+  for (;;) {
+    std::vector<Redivision> changes = find_redivisions(mesh, may_remove, refused);
+    if (changes.empty()) return;
+    std::erase_if(changes, [&](const Redivision& change) {
+      return !is_flat(mesh.positions, change.outline) && refused.insert(change.outline).second;
+    });
+    std::vector<Index> change_of_face;
+    mesh = redivide_faces(mesh, changes, change_of_face);
+  }
+}
+
 }  // namespace
 
 PolyMesh pair_triangles(const CoarseSurface& surface) {
@@ -187,6 +228,7 @@ PolyMesh pair_triangles(const CoarseSurface& surface) {
   pairing.divide_anew();
   PolyMesh faces = pairing.faces();
   faces.positions = surface.positions;
+  divide_flats_anew(surface, faces);
   return faces;
 }
 

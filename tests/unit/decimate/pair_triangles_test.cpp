@@ -61,6 +61,21 @@ TEST(PairTriangles, KeepsFeatureEdges) {
   EXPECT_EQ(quads_of(pair_triangles(coarse)), 0);
 }
 
+/// A hexagon with a triangle in the middle, which only one of the others can be paired with.
+TEST(PairTriangles, DividesFlatsAnew) {
+  CoarseSurface hexagon = surface({Vec3(0, 0, 0), Vec3(1, -0.2, 0), Vec3(2, 0, 0), Vec3(2, 1, 0),
+                                   Vec3(1, 1.2, 0), Vec3(0, 1, 0)},
+                                  {{1, 3, 5}, {1, 2, 3}, {3, 4, 5}, {5, 0, 1}});
+  const PolyMesh flat = pair_triangles(hexagon);
+  EXPECT_EQ(flat.face_count(), 2);
+  EXPECT_EQ(quads_of(flat), 2);
+  CoarseSurface parted = hexagon;
+  set_barrier(parted, 1, 3);
+  EXPECT_LT(quads_of(pair_triangles(parted)), 2);
+  hexagon.positions[3].z() = 0.2;
+  EXPECT_EQ(pair_triangles(hexagon).face_count(), 3);
+}
+
 TEST(PairTriangles, FacesKeepTheirOrientation) {
   const PolyMesh result = pair_triangles(strip());
   for (Index f = 0; f < result.face_count(); ++f) {
