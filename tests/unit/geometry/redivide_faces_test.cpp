@@ -107,11 +107,13 @@ TEST(RedivideFaces, DoesNotFlattenRidges) {
   EXPECT_TRUE(find_redivisions(mesh, kAny, {}).empty());
 }
 
-/// A vertex with three edges between four triangles would have two.
+/// Two triangles that make a good quad, and a third one folded under them: without the edge
+/// between the first two their common corner would have two edges.
 TEST(RedivideFaces, LeavesNoVertexWithTwoEdges) {
-  const PolyMesh mesh =
-      mesh_of({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}, {0, 0, 0}}, {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
-  EXPECT_TRUE(find_redivisions(mesh, kAny, {}).empty());
+  const std::vector<Vec3> positions = {{-1, 0, 0}, {0, -1, 0}, {1, 0, 0}, {0, 1, 0.1}};
+  EXPECT_EQ(find_redivisions(mesh_of(positions, {{0, 1, 3}, {1, 2, 3}}), kAny, {}).size(), 1U);
+  const PolyMesh closed = mesh_of(positions, {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
+  EXPECT_TRUE(find_redivisions(closed, kAny, {}).empty());
 }
 
 /// A jittered grid, each square cut along one of its diagonals or not at all, at random.
