@@ -79,6 +79,24 @@ TEST(Remesh, WithFewVerticesFacesOfAPlateDoNotCross) {
   EXPECT_NEAR(result.quads.mesh.vertex_count(), 260, 13);
 }
 
+// Whatever made a result last, programs that cut faces into fans see the surface that was measured.
+TEST(Remesh, FansOfFacesAreTheSurfaceMeasured) {
+  const PolyMesh mesh = claws(4, 0.25, 0.1, 0.6, 6000);
+  RemeshOptions within;
+  within.trace.tolerance = percent(0.5);
+  RemeshOptions counted;
+  counted.trace.vertices = 700;
+  RemeshOptions decimated;
+  decimated.trace.vertices = 60;
+  for (RemeshOptions* options : {&within, &counted, &decimated}) {
+    options->measure = false;
+    const PolyMesh result = remesh({mesh, {}, {}, {}}, *options).quads.mesh;
+    PolyMesh begun = result;
+    begin_faces_at_fans(begun);
+    EXPECT_EQ(begun.corners, result.corners);
+  }
+}
+
 /// Share of the vertices of a closed mesh that four faces meet in.
 double regular_share(const PolyMesh& mesh) {
   std::vector<int> faces(mesh.positions.size(), 0);
