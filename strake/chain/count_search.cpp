@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace strake {
 
@@ -32,22 +33,30 @@ const CountSearch::Trial& CountSearch::best() const {
   });
 }
 
-double CountSearch::guess() const {
-  // The nearest tries with too many and with too few elements.
-  const Trial* many = nullptr;
-  const Trial* few = nullptr;
-  for (const Trial& trial : trials_) {
-    if (excess(trial) > 0) {
-      if (many == nullptr || trial.count < many->count) many = &trial;
-    } else if (few == nullptr || trial.count > few->count) {
-      few = &trial;
-    }
+std::optional<std::pair<CountSearch::Trial, CountSearch::Trial>> CountSearch::nearest_bracket()
+    const {
+  std::vector<Trial> by_scale = trials_;
+  std::ranges::sort(by_scale, {}, &Trial::scale);
+  std::optional<std::pair<Trial, Trial>> nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < by_scale.size(); ++i) {
+    const Trial& many = by_scale[i - 1];
+    const Trial& few = by_scale[i];
+    const double errors = error(many.count) + error(few.count);
+    if (!(excess(many) > 0) || excess(few) > 0 || !(errors < least)) continue;
+    least = errors;
+    nearest = {many, few};
   }
-  if (many != nullptr && few != nullptr && many->scale < few->scale) {
-    const double low = std::log(many->scale);
-    const double high = std::log(few->scale);
+  return nearest;
+}
+
+double CountSearch::guess() const {
+  if (const auto bracket = nearest_bracket()) {
+    const auto& [many, few] = *bracket;
+    const double low = std::log(many.scale);
+    const double high = std::log(few.scale);
     // Away from the ends, so that a crooked curve cannot hold the search at one of them.
-    const double share = std::clamp(excess(*many) / (excess(*many) - excess(*few)), 0.1, 0.9);
+    const double share = std::clamp(excess(many) / (excess(many) - excess(few)), 0.1, 0.9);
     return std::exp(low + share * (high - low));
   }
   const Trial& near = best();

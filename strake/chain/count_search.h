@@ -2,15 +2,16 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace strake {
 
 /// Finds the scale at which a count that falls with the scale is as wanted.
 ///
-/// Regula falsi on log(count) over log(scale), from two tries on either side of the target; before
-/// there are two, counts are taken to fall with the square of the scale, as elements of an area do.
-/// Deterministic: the same counts give the same scales.
+/// Regula falsi on log(count) over log(scale), from two neighbouring tries on either side of the
+/// target; before there are two, counts are taken to fall with the square of the scale, as elements
+/// of an area do. Deterministic: the same counts give the same scales.
 class CountSearch {
  public:
   struct Trial {
@@ -42,6 +43,9 @@ class CountSearch {
  private:
   /// log(count / target): positive where there are too many.
   [[nodiscard]] double excess(const Trial& trial) const;
+  /// Two trials next to each other in scale, of which the first has too many and the second too
+  /// few: the nearest ones, as counts can go up and down again.
+  [[nodiscard]] std::optional<std::pair<Trial, Trial>> nearest_bracket() const;
   [[nodiscard]] double guess() const;
 
   double target_;

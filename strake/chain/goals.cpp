@@ -192,8 +192,14 @@ bool only_quads(const GoalStages& stages) {
   return stages.mesh.option("pure-quads").value() == "true";
 }
 
+/// Whether cells may be divided where errors are largest: a density says where vertices go, not the
+/// errors.
+bool goes_by_errors(const Session& session, const GoalStages& stages) {
+  return !only_quads(stages) && !session.has("density");
+}
+
 /// Looks for the scale of distances that gives the count, from the present one on. Where all are
-/// too far above or below it, as on coarse meshes, takes what is below: cells can be divided.
+/// too far above or below it, as on coarse meshes, takes what is below where cells can be divided.
 void search_scale(Session& session, const GoalStages& stages, const LineAim& aim) {
   const Option& option = stages.trace.option("spacing-scale");
   CountSearch search(aim.count, std::stod(option.value()), option.min, option.max);
@@ -220,7 +226,7 @@ void search_scale(Session& session, const GoalStages& stages, const LineAim& aim
       below = {session, {*scale, count}};
   }
   const bool is_missed = search.error(search.best().count) > kCountTolerance;
-  const Found& chosen = is_missed && below && !only_quads(stages) ? *below : best;
+  const Found& chosen = is_missed && below && goes_by_errors(session, stages) ? *below : best;
   session = chosen.session;
   option.parse_into(fmt::format("{}", chosen.trial.scale));
 }
@@ -330,7 +336,7 @@ Attempt fit_to_count(Session session, const GoalStages& stages, const LineAim& a
   const Session meshed = session;
   const std::int64_t given = count_of(session, "quads", aim.counted);
   const double missing = 1 - static_cast<double>(given) / static_cast<double>(aim.wanted);
-  if (aim.left > 0 || (missing > CountSearch::kMostMissing && !only_quads(stages))) {
+  if (aim.left > 0 || (missing > kCountTolerance && !only_quads(stages))) {
     fit_before_dividing(session, stages);
     const std::int64_t vertices =
         count_of(session, "fitted", Counted::vertices) + to_add(given, aim);
@@ -350,8 +356,7 @@ Attempt fit_to_count(Session session, const GoalStages& stages, const LineAim& a
 std::string meet_count(Session& session, const GoalStages& stages, Counted counted,
                        std::int64_t wanted, std::optional<std::int64_t> feedback_rounds,
                        bool lines_only) {
-  // A density says where vertices go, not the errors.
-  const double left = only_quads(stages) || session.has("density") ? 0 : kLeftForWorst;
+  const double left = goes_by_errors(session, stages) ? kLeftForWorst : 0;
   const LineAim aim{counted, std::llround((1 - left) * static_cast<double>(wanted)), wanted, left};
   if (session.has("density") && !feedback_rounds) {
     const DensityMatch match = match_density(session, stages);

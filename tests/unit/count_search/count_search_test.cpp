@@ -61,6 +61,15 @@ TEST(CountSearch, ToleratesNoise) {
   EXPECT_LE(search.error(search.best().count), 0.05);
 }
 
+/// A line more or less makes counts go up where they should fall.
+TEST(CountSearch, GoesOnBesideACountThatIsOutOfOrder) {
+  const auto search = search_for(800, [](double scale) {
+    if (scale < 0.93) return 845;
+    return scale < 0.97 ? 880 : scale < 1 ? 790 : 672;
+  });
+  EXPECT_EQ(search.best().count, 790);
+}
+
 TEST(CountSearch, RemembersTheBestWhereTheTargetIsOutOfReach) {
   const auto search = search_for(100, [](double scale) { return std::max(800.0, 2000 / scale); });
   EXPECT_EQ(search.best().count, 800);
