@@ -107,7 +107,7 @@ class Search {
     auto at = std::ranges::find(patch.outline, a);
     if (at == patch.outline.end()) return false;
     if (at + 1 == patch.outline.end()) {
-      std::ranges::rotate(patch.outline, patch.outline.begin() + 1);
+      std::rotate(patch.outline.begin(), patch.outline.begin() + 1, patch.outline.end());
       at = patch.outline.end() - 2;
     }
     if (*(at + 1) != b) return false;
@@ -125,7 +125,7 @@ class Search {
 
   void divide(const Patch& patch) {
     std::vector<Index> outline = patch.outline;
-    std::ranges::rotate(outline, std::ranges::min_element(outline));
+    std::rotate(outline.begin(), std::ranges::min_element(outline), outline.end());
     if (refused_.contains(outline)) return;
     std::vector<Index> degree;  // without the edges inside
     for (const Index v : outline) {

@@ -56,8 +56,7 @@ class Refilling {
  public:
   Refilling(const TriMesh& mesh, const SurfaceDistance& surface, QuadMesh& quads, double reach,
             const std::vector<Vec3>& spared)
-      : mesh_(mesh),
-        surface_(surface),
+      : surface_(surface),
         quads_(quads),
         reach_(reach),
         spared_(spared),
@@ -435,7 +434,6 @@ class Refilling {
     quads_.provenance = std::move(provenance);
   }
 
-  const TriMesh& mesh_;
   const SurfaceDistance& surface_;
   QuadMesh& quads_;
   double reach_;

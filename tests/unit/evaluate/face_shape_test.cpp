@@ -133,7 +133,7 @@ using Triangles = std::vector<std::array<Index, 3>>;
 
 /// The same for the same triangles in any order, beginning with any corner.
 Triangles sorted(Triangles triangles) {
-  for (auto& t : triangles) std::ranges::rotate(t, std::ranges::min_element(t));
+  for (auto& t : triangles) std::rotate(t.begin(), std::ranges::min_element(t), t.end());
   std::ranges::sort(triangles);
   return triangles;
 }
