@@ -152,10 +152,10 @@ class Search {
       ++degree[i];
       ++degree[j];
     }
-    Redivision change;
     for (std::size_t i = 0; i < outline.size(); ++i) {
       if (degree[i] < 3 && is_border_[outline[i]] == 0) return;
     }
+    Redivision change;
     for (const auto& [i, a, b, j] : division->quads) {
       change.added.push_back({outline[i], outline[a], outline[b], outline[j]});
       change.price += quad(i, a, b, j);

@@ -49,8 +49,8 @@ std::vector<FaceTriangles> other_triangulations(const PolyMesh& mesh);
 
 /// Turns the corners of faces so that a fan from the first one has the triangles of
 /// `triangulate_face`, where these are a fan: always up to five corners. So programs that cut faces
-/// into fans see the surface that is measured here.
-/// \pre the mesh has no texture coordinates, which belong to corners
+/// into fans see the surface that is measured here. Texture coordinates belong to corners and are
+/// not turned with them: carry them over afterwards (carry_attributes.h).
 void begin_faces_at_fans(PolyMesh& mesh);
 
 }  // namespace strake
