@@ -47,6 +47,10 @@ bool write_artifact(const std::filesystem::path& path, const TriMesh& mesh,
   file.own("wedge_vertex", mesh.wedge_vertex);
   file.own("source_vertex", mesh.source_vertex);
   file.own("source_face", mesh.source_face);
+  if (!mesh.parent_wedge.empty()) {
+    file.own("parent_wedge", mesh.parent_wedge);
+    file.own("parent_id", std::vector<std::uint8_t>(mesh.parent_id.begin(), mesh.parent_id.end()));
+  }
   file.own("origin", std::vector<Vec3>{mesh.origin});
   file.own("diagonal", std::vector<double>{mesh.diagonal});
   file.show("is_corner", "PointData/is_corner");
@@ -98,6 +102,13 @@ TriMesh read_tri_mesh(const std::filesystem::path& path) {
   file.require_codes(mesh.is_corner, 2, "is_corner");
   require_connected(mesh, file);
 
+  if (file.has("parent_wedge")) {
+    mesh.parent_wedge = file.own<Index>("parent_wedge");
+    file.require_rows(mesh.parent_wedge, wedges, "parent_wedge");
+    file.require_indices(mesh.parent_wedge, 0, std::numeric_limits<Index>::max(), "parent_wedge");
+    const auto id = file.own<std::uint8_t>("parent_id");
+    mesh.parent_id.assign(id.begin(), id.end());
+  }
   mesh.attributes = read_attributes(file, vertices, 3 * faces, faces);
   mesh.origin = origin.front();
   mesh.diagonal = diagonal.front();

@@ -36,6 +36,10 @@ struct TriMesh {
   std::vector<Index> source_vertex;  ///< [V] index in the file read
   std::vector<Index> source_face;    ///< [F] index in the file read (before triangulation)
 
+  /// [W] of a coarser mesh of another one: the wedge of that, at the same place; else empty.
+  std::vector<Index> parent_wedge;
+  std::string parent_id;  ///< of that mesh
+
   Attributes attributes;  ///< corner i of face f is half-edge 3 f + i
 
   Vec3 origin = Vec3::Zero();  ///< to be added to `positions` for model coordinates

@@ -15,13 +15,14 @@ const Option& Stage::option(const std::string& option_name) const {
 StageResult run_stage(const Stage& stage, Inputs& inputs, Observer& observer) {
   const Port* mesh_port = nullptr;
   for (const Port& port : stage.inputs) {
-    if (port.kind == PortKind::mesh) mesh_port = &port;
+    if (port.kind == PortKind::mesh && !port.of_parent) mesh_port = &port;
   }
   for (const Port& port : stage.inputs) {
-    if (mesh_port == nullptr || port.kind == PortKind::mesh || !inputs.has(port.name)) continue;
+    if (mesh_port == nullptr || &port == mesh_port || !inputs.has(port.name)) continue;
+    const auto check = port.of_parent ? check_parent : check_belongs;
     for (const Input& input : inputs.all(port.name)) {
-      check_belongs(inputs.get<TriMesh>(mesh_port->name), inputs.at(mesh_port->name).origin,
-                    *input.value, input.origin);
+      check(inputs.get<TriMesh>(mesh_port->name), inputs.at(mesh_port->name).origin, *input.value,
+            input.origin);
     }
   }
   StageResult result = stage.run(inputs, observer);

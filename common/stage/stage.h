@@ -19,9 +19,10 @@ namespace strake {
 struct Port {
   std::string name;
   PortKind kind = PortKind::report;
-  std::string help;      ///< a few words
-  bool required = true;  ///< an input that is not required is given as --name
-  bool many = false;     ///< takes one or more files; the last port that is required
+  std::string help;        ///< a few words
+  bool required = true;    ///< an input that is not required is given as --name
+  bool many = false;       ///< takes one or more files; the last port that is required
+  bool of_parent = false;  ///< belongs to what the mesh of the stage is a coarser one of
 };
 
 /// A value that goes into a stage, and what is known of it.

@@ -76,4 +76,8 @@ std::string mesh_id_of(const Value& value);
 void check_belongs(const TriMesh& mesh, const std::string& mesh_name, const Value& value,
                    const std::string& name);
 
+/// Checks that a coarser mesh was made from the mesh that a value is, or belongs to, likewise.
+void check_parent(const TriMesh& coarse, const std::string& coarse_name, const Value& value,
+                  const std::string& name);
+
 }  // namespace strake

@@ -43,6 +43,14 @@ bool fits(const TriMesh& mesh, const Value& value) {
                     value);
 }
 
+/// Of a mesh, or a field on one.
+std::size_t wedge_count(const Value& value) {
+  return std::visit(Overloaded{[](const TriMesh& mesh) { return mesh.wedge_vertex.size(); },
+                               [](const PrincipalField& field) { return field.normal.size(); },
+                               [](const auto&) { return std::size_t{0}; }},
+                    value);
+}
+
 }  // namespace
 
 std::string mesh_id_of(const Value& value) {
@@ -52,6 +60,23 @@ std::string mesh_id_of(const Value& value) {
                                [](const GuideLines&) { return std::string(); },
                                [](const auto& other) { return other.mesh_id; }},
                     value);
+}
+
+void check_parent(const TriMesh& coarse, const std::string& coarse_name, const Value& value,
+                  const std::string& name) {
+  const std::string id = mesh_id_of(value);
+  if (coarse.parent_id.empty() || id != coarse.parent_id) {
+    throw PreconditionError("'" + coarse_name + "' is no coarser mesh of that of '" + name + "' (" +
+                            id + ", not " +
+                            (coarse.parent_id.empty() ? "any mesh" : coarse.parent_id) +
+                            "); give the mesh it was made from, or make it again");
+  }
+  const std::size_t wedges = wedge_count(value);
+  if (std::any_of(coarse.parent_wedge.begin(), coarse.parent_wedge.end(),
+                  [&](Index wedge) { return static_cast<std::size_t>(wedge) >= wedges; })) {
+    throw InputError("'" + coarse_name + "' names elements that '" + name +
+                     "' does not have; the file is damaged, make it again");
+  }
 }
 
 void check_belongs(const TriMesh& mesh, const std::string& mesh_name, const Value& value,

@@ -1,12 +1,15 @@
 #include "strake/chain/chain.h"
 
 #include "common/core/error.h"
+#include "stages/coarsen/stage.h"
 #include "stages/decimate/stage.h"
 #include "stages/evaluate/stage.h"
 #include "stages/fit/stage.h"
 #include "stages/import/stage.h"
+#include "stages/lift/stage.h"
 #include "stages/mesh/stage.h"
 #include "stages/refine/stage.h"
+#include "stages/restrict/stage.h"
 #include "stages/size/stage.h"
 #include "stages/smooth/stage.h"
 #include "stages/tensor/stage.h"
@@ -25,15 +28,19 @@ Chain::Chain()
     : import(import_stage()),
       tensor(tensor_stage()),
       smooth(smooth_stage()),
+      coarsen(coarsen_stage()),
+      restrict(restrict_stage()),
       trace(trace_stage()),
       mesh(mesh_stage()),
+      lift(lift_stage()),
       fit(fit_stage()),
       size(size_stage()),
       refine(refine_stage()),
       decimate(decimate_stage()),
       evaluate(evaluate_stage()) {}
 
-OptionList Chain::declare(std::optional<std::int64_t>& rounds, bool& lines_only) {
+OptionList Chain::declare(std::optional<std::int64_t>& rounds, bool& lines_only,
+                          double& working_ratio) {
   return {{.name = "feedback-rounds",
            .target = &rounds,
            .unit = "",
@@ -46,11 +53,19 @@ OptionList Chain::declare(std::optional<std::int64_t>& rounds, bool& lines_only)
            .target = &lines_only,
            .unit = "",
            .help = "Keep the result of lines also where they are too coarse for the shape at the "
-                   "wanted count, and decimating it does much better."}};
+                   "wanted count, and decimating it does much better."},
+          {.name = "working-ratio",
+           .target = &working_ratio,
+           .unit = "",
+           .help = "Vertices per wanted vertex of the coarser mesh on which lines are traced where "
+                   "the input has more than twice as many; 0: always on the input.",
+           .min = 0,
+           .max = 1000}};
 }
 
 std::vector<const Stage*> Chain::stages() const {
-  return {&import, &tensor, &smooth, &trace, &mesh, &fit, &size, &refine, &decimate, &evaluate};
+  return {&import, &tensor, &smooth, &coarsen, & restrict, &trace,   &mesh,
+          &lift,   &fit,    &size,   &refine,  &decimate,  &evaluate};
 }
 
 void Chain::check_goals() const {
@@ -64,13 +79,13 @@ void Chain::check_goals() const {
 }
 
 std::string Chain::reach_goal(Session& session) const {
-  const GoalStages goal_stages{trace, mesh, fit, size, refine, decimate};
+  const GoalStages goal_stages{coarsen, restrict, trace, mesh, lift, fit, size, refine, decimate};
   for (const Counted counted : {Counted::vertices, Counted::faces}) {
     const char* name = counted == Counted::vertices ? "vertices" : "faces";
     const std::string wanted = trace.option(name).value();
     if (wanted.empty()) continue;
     return meet_count(session, goal_stages, counted, std::stoll(wanted), feedback_rounds,
-                      lines_only);
+                      lines_only, working_ratio);
   }
   const std::string tolerance = trace.option("tolerance").value();
   if (tolerance.empty()) return follow_spacing(session, goal_stages);

@@ -17,8 +17,11 @@ struct Chain {
   Stage import;
   Stage tensor;
   Stage smooth;
+  Stage coarsen;
+  Stage restrict;
   Stage trace;
   Stage mesh;
+  Stage lift;
   Stage fit;
   Stage size;
   Stage refine;
@@ -27,9 +30,11 @@ struct Chain {
 
   std::optional<std::int64_t> feedback_rounds;  ///< as the goals take them
   bool lines_only = false;                      ///< likewise
+  double working_ratio = 10;                    ///< likewise
   /// The options of the chain as a whole, which point into this object.
-  OptionList declare() { return declare(feedback_rounds, lines_only); }
-  static OptionList declare(std::optional<std::int64_t>& feedback_rounds, bool& lines_only);
+  OptionList declare() { return declare(feedback_rounds, lines_only, working_ratio); }
+  static OptionList declare(std::optional<std::int64_t>& feedback_rounds, bool& lines_only,
+                            double& working_ratio);
 
   /// All stages, in the order of their first run.
   [[nodiscard]] std::vector<const Stage*> stages() const;

@@ -15,6 +15,7 @@
 #include "strake/chain/crossing_places.h"
 #include "strake/chain/density_match.h"
 #include "strake/chain/too_coarse.h"
+#include "strake/chain/working_mesh.h"
 
 namespace strake {
 namespace {
@@ -351,11 +352,9 @@ Attempt fit_to_count(Session session, const GoalStages& stages, const LineAim& a
   return {meshed, session, crossing.of(session.get<QuadMesh>("fitted").mesh)};
 }
 
-}  // namespace
-
-std::string meet_count(Session& session, const GoalStages& stages, Counted counted,
-                       std::int64_t wanted, std::optional<std::int64_t> feedback_rounds,
-                       bool lines_only) {
+/// Traces, feeds errors back, looks for the count, fits, and traces closer where faces cross.
+void trace_to_count(Session& session, const GoalStages& stages, Counted counted,
+                    std::int64_t wanted, std::optional<std::int64_t> feedback_rounds) {
   const double left = goes_by_errors(session, stages) ? kLeftForWorst : 0;
   const LineAim aim{counted, std::llround((1 - left) * static_cast<double>(wanted)), wanted, left};
   if (session.has("density") && !feedback_rounds) {
@@ -387,12 +386,23 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
   };
   const Index faces = first.done.get<QuadMesh>("fitted").mesh.face_count();
   session = part_faces(first, faces, again, keep).done;
+}
+
+}  // namespace
+
+std::string meet_count(Session& session, const GoalStages& stages, Counted counted,
+                       std::int64_t wanted, std::optional<std::int64_t> feedback_rounds,
+                       bool lines_only, double working_ratio) {
+  std::optional<Session> coarser = on_coarser_mesh(session, stages, wanted, working_ratio);
+  trace_to_count(coarser ? *coarser : session, stages, counted, wanted, feedback_rounds);
+  if (coarser) take_from_coarser_mesh(session, *coarser, stages);
   // What a user says of directions and of lines decimation knows nothing of.
   const bool needs_lines = lines_only || only_quads(stages) || session.has("density") ||
                            session.get<PrincipalField>("field").guides.line_count() > 0;
   if (!needs_lines) decimate_if_too_coarse(session, stages, counted, wanted);
   const std::int64_t reached = count_of(session, "fitted", counted);
-  if (aim.miss(reached) > kCountTolerance) {
+  const double miss = static_cast<double>(std::abs(reached - wanted)) / static_cast<double>(wanted);
+  if (miss > kCountTolerance) {
     session.say(fmt::format(
         "warning: {} {} were wanted, but the nearest result has {}: the shape, --max-spacing or "
         "the mesh's own resolution do not allow it",

@@ -17,11 +17,14 @@ namespace strake {
 /// then only the scale of all distances changes. Where more than 2 % of the count are missing in
 /// the end the cells that are farthest off are divided. Where faces of the result cross, lines are
 /// traced closer there and the count is looked for again. Where lines are too coarse for the
-/// surface decimation may take their place (too_coarse.h). \param lines_only  never decimate
+/// surface decimation may take their place (too_coarse.h). Where the input is much finer than the
+/// result all but the last rounds of fitting happens on a coarser mesh (working_mesh.h).
+/// \param lines_only     never decimate
+/// \param working_ratio  of the coarser mesh
 /// \return the port of the result
 std::string meet_count(Session& session, const GoalStages& stages, Counted counted,
                        std::int64_t wanted, std::optional<std::int64_t> feedback_rounds,
-                       bool lines_only);
+                       bool lines_only, double working_ratio);
 
 /// Traces once, at the distances that the options of tracing ask for. \return the port of the
 /// result

@@ -71,6 +71,7 @@ OptionList RemeshOptions::declare() {
   add(import.declare());
   add(tensor.declare());
   add(smooth.declare());
+  add(coarsen.declare());
   add(trace.declare());
   add(mesh.declare());
   add(fit.declare());
@@ -78,7 +79,7 @@ OptionList RemeshOptions::declare() {
   add(refine.declare());
   add(decimate.declare());
   add(evaluate.declare());
-  add(Chain::declare(feedback_rounds, lines_only));
+  add(Chain::declare(feedback_rounds, lines_only, working_ratio));
   return all;
 }
 

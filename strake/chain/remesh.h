@@ -13,6 +13,7 @@
 #include "common/core/report.h"
 #include "common/core/stage_observer.h"
 #include "common/core/tri_mesh.h"
+#include "stages/coarsen/coarsen.h"
 #include "stages/decimate/decimate.h"
 #include "stages/evaluate/evaluate.h"
 #include "stages/fit/fit.h"
@@ -41,6 +42,7 @@ struct RemeshOptions {
   ImportOptions import;
   TensorOptions tensor;
   SmoothOptions smooth;
+  CoarsenOptions coarsen;  ///< `vertices` follows from the goal
   TraceOptions trace;
   MeshOptions mesh;
   FitOptions fit;
@@ -54,6 +56,9 @@ struct RemeshOptions {
   /// Keep the result of lines also where they are too coarse for the shape at a wanted count, and
   /// decimating it does much better.
   bool lines_only = false;
+  /// Vertices per wanted vertex of the coarser mesh on which lines are traced where the input has
+  /// more than twice as many; 0: always on the input.
+  double working_ratio = 10;
   bool measure = true;  ///< measure the result against the input at the end
 
   /// All of them as declared; their names are those of the command line. They point into this

@@ -39,6 +39,16 @@ class Session {
   /// Makes what the port `source` holds available as `port` too, in another form.
   void provide_as(const std::string& port, Value value, const std::string& source);
 
+  /// Makes what the port `source` holds what the port `port` holds too.
+  void use_as(const std::string& port, const std::string& source) {
+    values_[port] = values_.at(source);
+  }
+
+  /// Makes the ports hold what they hold in another session.
+  void take_from(const Session& other, const std::vector<std::string>& ports) {
+    for (const std::string& port : ports) values_[port] = other.values_.at(port);
+  }
+
   /// Takes back what the port was provided with.
   void withdraw(const std::string& port) { values_.erase(port); }
   [[nodiscard]] bool has(const std::string& port) const { return values_.count(port) != 0; }

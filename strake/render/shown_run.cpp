@@ -169,7 +169,7 @@ void add_traced(const report::RunFiles& run, const RunView& view, Polylines& dra
   if (!run.lines) return;
   const LineSet& lines = *run.lines;
   const auto place = [&](Index p) -> Vec3 {
-    return run.mesh.origin + line_point_position(run.mesh, lines.points[p]);
+    return run.mesh.origin + line_point_position(run.line_mesh(), lines.points[p]);
   };
   for (std::size_t family = 0; family < kGroups.size(); ++family) {
     if (!view.layers.contains(kGroups[family].first)) continue;

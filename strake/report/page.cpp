@@ -30,7 +30,7 @@ Json describe_run(const RunFiles& run, std::size_t surface, Blocks& blocks) {
                {"stages", run.stages},
                {"seconds", run.seconds},
                {"missing", run.missing}};
-  if (run.lines) json["lines"] = line_scene(run.mesh, *run.lines, kMostLinePoints, blocks);
+  if (run.lines) json["lines"] = line_scene(run.line_mesh(), *run.lines, kMostLinePoints, blocks);
   return json;
 }
 

@@ -22,8 +22,9 @@ struct Found {
   ArtifactInfo info;
 };
 
-const std::vector<std::string> kStageOrder = {"import", "tensor",   "smooth", "size",   "trace",
-                                              "mesh",   "decimate", "fit",    "refine", "evaluate"};
+const std::vector<std::string> kStageOrder = {"import", "tensor", "smooth",  "coarsen", "restrict",
+                                              "size",   "trace",  "mesh",    "lift",    "decimate",
+                                              "fit",    "refine", "evaluate"};
 
 std::ptrdiff_t stage_place(const std::string& stage) {
   return std::find(kStageOrder.begin(), kStageOrder.end(), stage) - kStageOrder.begin();
@@ -52,7 +53,14 @@ class Sources {
   /// that the last stage made.
   [[nodiscard]] const Found& result() const;
   /// The one of this kind that `result` goes back to, or the only one; nullptr: there is none.
-  [[nodiscard]] const Found* source_of(const Found& result, ArtifactKind kind) const;
+  /// \param mesh_id  of the mesh that it belongs to; "": of any
+  [[nodiscard]] const Found* source_of(const Found& result, ArtifactKind kind,
+                                       const std::string& mesh_id = "") const;
+  /// The same, of the mesh of the result where there is one.
+  [[nodiscard]] const Found* source_beside(const Found& result, ArtifactKind kind) const {
+    const Found* own = source_of(result, kind, result.info.mesh_id);
+    return own != nullptr ? own : source_of(result, kind);
+  }
   /// Stage records that are about this result or what it was made from; of stages without a report
   /// what their artifacts say.
   [[nodiscard]] std::vector<Json> records(const Found& result) const;
@@ -131,12 +139,16 @@ const Found& Sources::result() const {
   return *best;
 }
 
-const Found* Sources::source_of(const Found& result, ArtifactKind kind) const {
+const Found* Sources::source_of(const Found& result, ArtifactKind kind,
+                                const std::string& mesh_id) const {
+  const auto is_asked_for = [&](const Found& found) {
+    return found.info.kind == kind && (mesh_id.empty() || found.info.mesh_id == mesh_id);
+  };
   std::map<std::string, const Found*> by_content;
   std::vector<const Found*> of_kind;
   for (const Found& found : artifacts_) {
     by_content.emplace(found.info.content, &found);
-    if (found.info.kind == kind) of_kind.push_back(&found);
+    if (is_asked_for(found)) of_kind.push_back(&found);
   }
   if (of_kind.size() <= 1) return of_kind.empty() ? nullptr : of_kind.front();
   std::vector<const Found*> open = {&result};
@@ -145,7 +157,7 @@ const Found* Sources::source_of(const Found& result, ArtifactKind kind) const {
     const Found* found = open.back();
     open.pop_back();
     if (!seen.insert(found).second) continue;
-    if (found->info.kind == kind) return found;
+    if (is_asked_for(*found)) return found;
     for (const auto& input : found->info.provenance.inputs) {
       const auto source = by_content.find(input.digest);
       if (source != by_content.end()) open.push_back(source->second);
@@ -191,7 +203,7 @@ T read_fitting(PortKind kind, const Found& found, const TriMesh& mesh, const fs:
 /// Puts together what the sources hold.
 RunFiles read_sources(std::string name, const Sources& sources, Json seconds) {
   const Found& result = sources.result();
-  const Found* mesh = sources.source_of(result, ArtifactKind::mesh);
+  const Found* mesh = sources.source_beside(result, ArtifactKind::mesh);
   if (mesh == nullptr) {
     sources.refuse(
         "holds no artifact of kind 'mesh', which the result is compared with; make it with "
@@ -201,7 +213,7 @@ RunFiles read_sources(std::string name, const Sources& sources, Json seconds) {
   run.name = std::move(name);
   run.mesh = read_tri_mesh(mesh->path);
   run.quads = read_fitting<QuadMesh>(PortKind::quads, result, run.mesh, mesh->path);
-  if (const Found* field = sources.source_of(result, ArtifactKind::field)) {
+  if (const Found* field = sources.source_beside(result, ArtifactKind::field)) {
     run.field = read_fitting<PrincipalField>(PortKind::field, *field, run.mesh, mesh->path);
     run.field_content = field->info.content;
   } else {
@@ -210,7 +222,10 @@ RunFiles read_sources(std::string name, const Sources& sources, Json seconds) {
         "alignment are left out.");
   }
   if (const Found* lines = sources.source_of(result, ArtifactKind::lines)) {
-    run.lines = read_fitting<LineSet>(PortKind::lines, *lines, run.mesh, mesh->path);
+    const Found* under = sources.source_of(result, ArtifactKind::mesh, lines->info.mesh_id);
+    if (under != nullptr && under != mesh) run.coarse = read_tri_mesh(under->path);
+    run.lines = read_fitting<LineSet>(PortKind::lines, *lines, run.line_mesh(),
+                                      under != nullptr ? under->path : mesh->path);
   } else {
     run.missing.push_back("There is no artifact of kind 'lines': lines are left out.");
   }

@@ -21,10 +21,13 @@ struct RunFiles {
   QuadMesh quads;  ///< the result, made after all others
   std::optional<PrincipalField> field;
   std::optional<LineSet> lines;
+  std::optional<TriMesh> coarse;               ///< on which the lines are, where not on `mesh`
   std::string field_content;                   ///< names the field; "" where there is none
   std::vector<nlohmann::ordered_json> stages;  ///< records, in the order they were run
   nlohmann::ordered_json seconds;              ///< by stage; null where nothing says
   std::vector<std::string> missing;            ///< sentences about what the report goes without
+
+  [[nodiscard]] const TriMesh& line_mesh() const { return coarse ? *coarse : mesh; }
 };
 
 /// Reads the artifacts and stage reports of a folder, whatever their names: what `strake remesh

@@ -53,6 +53,27 @@ TEST_F(Chain, FrontEndKeepsAToleranceAsThePrograms) {
   EXPECT_EQ(bytes("part.obj"), bytes("again.obj"));
 }
 
+TEST_F(Chain, FrontEndKeepsWhatItWorksOnAsTheProgramsMakeIt) {
+  must("strake sample torus -o torus.ply --faces 20000");
+  must("strake remesh torus.ply -o torus.obj --vertices 200 --keep kept -q");
+  must("strake-coarsen kept/mesh.hdf -o coarse.hdf --coarse-vertices 2000 -q");
+  must("strake-restrict coarse.hdf kept/field.hdf -o coarse-field.hdf -q");
+  for (const std::string name : {"coarse.hdf", "coarse-field.hdf"}) {
+    EXPECT_EQ(bytes(name), bytes("kept/" + name)) << name;
+  }
+  must("strake-trace coarse.hdf coarse-field.hdf -o lines.hdf --vertices 200 -q");
+  must("strake-mesh coarse.hdf lines.hdf -o coarse-quads.hdf -q");
+  must("strake-lift kept/mesh.hdf coarse.hdf coarse-quads.hdf -o lifted.hdf -q");
+  must("strake-evaluate kept/mesh.hdf lifted.hdf --field kept/field.hdf -o lifted.json -q");
+  must("strake report kept -o report.html");
+  must(
+      "strake-render kept -o lines.png --size 90x90 --surface input --colour plain --layers "
+      "minimum");
+  must_fail(4, "strake-lift kept/mesh.hdf kept/mesh.hdf coarse-quads.hdf -o wrong.hdf -q",
+            "no coarser mesh of that of");
+  must_fail(4, "strake-trace kept/mesh.hdf coarse-field.hdf -o wrong.hdf -q", "another mesh");
+}
+
 TEST_F(Chain, AnotherSeedNeedsOnlyTraceAndMeshAgain) {
   run_chain("part.ply", "");
   const std::string field = bytes("field.hdf");

@@ -179,6 +179,7 @@ std::string content_id(const TriMesh& mesh) {
   add(mesh.faces.data(), mesh.faces.size());
   add(mesh.is_feature.data(), mesh.is_feature.size());
   add(mesh.is_corner.data(), mesh.is_corner.size());
+  add(mesh.parent_id.data(), mesh.parent_id.size());
   const XXH128_hash_t hash = XXH3_128bits_digest(state.get());
   return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }

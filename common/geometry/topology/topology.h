@@ -43,7 +43,7 @@ Census census(const TriMesh& mesh);
 std::vector<Index> face_components(const TriMesh& mesh);
 
 /// 32 hexadecimal digits that identify the mesh: XXH3-128 of origin, positions, faces, feature and
-/// corner flags.
+/// corner flags, and the id of the mesh it is a coarser one of.
 std::string content_id(const TriMesh& mesh);
 
 }  // namespace strake

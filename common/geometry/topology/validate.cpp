@@ -34,6 +34,11 @@ void check_sizes(const TriMesh& mesh) {
           "{} source faces for {} faces", mesh.source_face.size(), faces);
 }
 
+void check_parent(const TriMesh& mesh) {
+  require(mesh.parent_wedge.empty() || mesh.parent_wedge.size() == mesh.wedge_vertex.size(),
+          "{} parent wedges for {} wedges", mesh.parent_wedge.size(), mesh.wedge_vertex.size());
+}
+
 void check_faces(const TriMesh& mesh) {
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     require(mesh.positions[v].allFinite(), "vertex {} is not finite", v);
@@ -118,6 +123,7 @@ void validate(const TriMesh& mesh) {
   check_edges(mesh);
   check_fans(mesh);
   check_wedges(mesh);
+  check_parent(mesh);
 }
 
 }  // namespace strake

@@ -1,0 +1,135 @@
+#include "stages/lift/lift.h"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+
+#include "common/geometry/carry_attributes.h"
+#include "common/geometry/mesh_measures.h"
+#include "common/geometry/surface_distance/surface_distance.h"
+#include "common/geometry/surface_point.h"
+
+namespace strake {
+namespace {
+
+/// Barycentric coordinates below this are none.
+constexpr double kNothing = 1e-9;
+/// Least cosine between the normals of two faces that are the same place of the surface.
+constexpr double kSameWay = 0.5;
+/// Barycentric coordinate of a foot beside a line that it does not belong to.
+constexpr double kBesideLine = 1e-6;
+
+/// Finds the points of a mesh that points of its coarser one are.
+class Lift {
+ public:
+  Lift(const TriMesh& mesh, const TriMesh& coarse)
+      : mesh_(mesh),
+        coarse_(coarse),
+        surface_(mesh.positions, mesh.faces),
+        normals_(mesh),
+        coarse_normals_(coarse) {}
+
+  /// \param at  on the coarser mesh  \param place  that the foot is of, relative to the origin
+  [[nodiscard]] SurfacePoint foot(const SurfacePoint& at, const Vec3& place) const {
+    for (int i = 0; i < 3; ++i) {
+      const Index vertex = parent_of(3 * at.face + i);
+      if (at.barycentric[i] > 1 - kNothing && is_on_line(vertex)) return at_vertex(vertex);
+    }
+    for (int i = 0; i < 3; ++i) {
+      const Index h = 3 * at.face + i;
+      if (at.barycentric[(i + 2) % 3] >= kNothing || !coarse_.is_barrier(h)) continue;
+      return on_edge(parent_of(h), parent_of(TriMesh::next(h)), at.barycentric[(i + 1) % 3]);
+    }
+    return nearest(at, place);
+  }
+
+ private:
+  /// Vertex of the mesh at a corner of the coarser one.
+  [[nodiscard]] Index parent_of(Index corner) const {
+    return mesh_.wedge_vertex[coarse_.parent_wedge[coarse_.wedge_of(corner)]];
+  }
+
+  template <class Visit>
+  void around(Index vertex, Visit visit) const {
+    const Index first = mesh_.vertex_out[vertex];
+    Index h = first;
+    do {
+      visit(h);
+      h = mesh_.rotate_ccw(h);
+    } while (h != kNone && h != first);
+  }
+
+  [[nodiscard]] bool is_on_line(Index vertex) const {
+    bool is = mesh_.is_corner[vertex] != 0;
+    around(vertex, [&](Index h) { is = is || mesh_.is_barrier(h); });
+    return is;
+  }
+
+  [[nodiscard]] SurfacePoint at_vertex(Index vertex) const {
+    const Index h = mesh_.vertex_out[vertex];
+    SurfacePoint point{TriMesh::face_of(h), {0, 0, 0}};
+    point.barycentric[h % 3] = 1;
+    return point;
+  }
+
+  /// \param share  of the way from one end to the other
+  [[nodiscard]] SurfacePoint on_edge(Index from, Index to, double share) const {
+    SurfacePoint point;
+    around(from, [&](Index h) {
+      // Of a face that has the edge as the one or the other of its two sides there.
+      if (point.face != kNone) return;
+      const Index last = TriMesh::prev(h);
+      const bool is_out = mesh_.to(h) == to;
+      if (!is_out && mesh_.from(last) != to) return;
+      point.face = TriMesh::face_of(h);
+      point.barycentric[h % 3] = 1 - share;
+      point.barycentric[is_out ? TriMesh::next(h) % 3 : last % 3] = share;
+    });
+    return point;
+  }
+
+  [[nodiscard]] SurfacePoint nearest(const SurfacePoint& at, const Vec3& place) const {
+    const int heaviest = static_cast<int>(std::ranges::max_element(at.barycentric) -
+                                          at.barycentric.begin());
+    const Index known = parent_of(3 * at.face + heaviest);
+    const Index known_face = TriMesh::face_of(mesh_.vertex_out[known]);
+    const Vec3 side = coarse_normals_[at.face];
+    const ClosestPoint found =
+        surface_.closest_if(place, (place - mesh_.positions[known]).norm(), [&](Index f) {
+          return f == known_face || normals_[f].dot(side) > kSameWay;
+        });
+    SurfacePoint point = found.triangle == kNone ? at_vertex(known)
+                                                 : SurfacePoint{found.triangle, found.barycentric};
+    // It may touch a line, but is not of it.
+    for (double& share : point.barycentric) share = (1 - 3 * kBesideLine) * share + kBesideLine;
+    return point;
+  }
+
+  const TriMesh& mesh_;
+  const TriMesh& coarse_;
+  SurfaceDistance surface_;
+  FaceNormals normals_;
+  FaceNormals coarse_normals_;
+};
+
+}  // namespace
+
+QuadMesh lift_quads(const TriMesh& mesh, const TriMesh& coarse, const QuadMesh& quads) {
+  const Lift lift(mesh, coarse);
+  QuadMesh lifted = quads;
+  lifted.mesh_id = mesh.id;
+  VertexProvenance& provenance = lifted.provenance;
+  tbb::parallel_for(Index{0}, quads.mesh.vertex_count(), [&](Index v) {
+    const SurfacePoint foot =
+        lift.foot({quads.provenance.face[v], quads.provenance.barycentric[v]},
+                  quads.mesh.positions[v] - mesh.origin);
+    provenance.face[v] = foot.face;
+    provenance.barycentric[v] = foot.barycentric;
+  });
+  lifted.mesh.attributes = carry_attributes(mesh, lifted.mesh, provenance);
+  return lifted;
+}
+
+}  // namespace strake

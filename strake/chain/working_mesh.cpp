@@ -1,0 +1,57 @@
+#include "strake/chain/working_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "common/core/fields.h"
+#include "common/core/poly_mesh.h"
+#include "common/core/tri_mesh.h"
+
+namespace strake {
+namespace {
+
+/// Times as many vertices as the coarser mesh is to have, from which on it is worth making.
+constexpr double kMuchFiner = 2;
+/// Rounds of fitting to the input: what is left is what the coarser mesh misses.
+constexpr int kLastRounds = 2;
+
+}  // namespace
+
+std::optional<Session> on_coarser_mesh(const Session& session, const GoalStages& stages,
+                                       std::int64_t vertices, double ratio) {
+  const Index own = session.get<TriMesh>("mesh").vertex_count();
+  const double wanted = ratio * static_cast<double>(vertices);
+  if (!(wanted > 0) || own <= kMuchFiner * wanted ||
+      session.get<PrincipalField>("field").guides.line_count() > 0) {
+    return std::nullopt;
+  }
+  Session coarser = session;
+  stages.coarsen.option("coarse-vertices").parse_into(std::to_string(std::llround(wanted)));
+  coarser.run(stages.coarsen);
+  if (own < kMuchFiner * coarser.get<TriMesh>("coarse").vertex_count()) return std::nullopt;
+  coarser.keep(stages.coarsen);
+  coarser.use_as("mesh", "coarse");
+  coarser.run(stages.restrict);
+  coarser.keep(stages.restrict);
+  coarser.use_as("field", "coarse-field");
+  return coarser;
+}
+
+void take_from_coarser_mesh(Session& session, const Session& coarser, const GoalStages& stages) {
+  Session lifted = coarser;
+  lifted.use_as("coarse-quads", "fitted");
+  lifted.take_from(session, {"mesh", "field"});
+  lifted.run(stages.lift);
+  lifted.keep(stages.lift);
+  lifted.use_as("quads", "lifted");
+  const Option& rounds = stages.fit.option("fit-rounds");
+  const std::string all_rounds = rounds.value();
+  rounds.parse_into(std::to_string(std::min(kLastRounds, std::stoi(all_rounds))));
+  lifted.run(stages.fit);
+  rounds.parse_into(all_rounds);
+  lifted.keep(stages.fit);
+  session = lifted;
+}
+
+}  // namespace strake

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "strake/chain/goal_stages.h"
+#include "strake/chain/session.h"
+
+namespace strake {
+
+/// The session with a coarser mesh in place of the input, and the field on it, where that is much
+/// finer than a result needs it; nothing where it is not, or its lines allow no coarser one.
+/// \param vertices  wanted of the result, about
+/// \param ratio     vertices of the coarser mesh per vertex of that; 0: never
+/// \pre the session has "mesh" and "field"
+std::optional<Session> on_coarser_mesh(const Session& session, const GoalStages& stages,
+                                       std::int64_t vertices, double ratio);
+
+/// Takes the port "fitted" of a session on a coarser mesh to one on the input, and fits it there
+/// once more, a few rounds.
+void take_from_coarser_mesh(Session& session, const Session& coarser, const GoalStages& stages);
+
+}  // namespace strake

@@ -1,0 +1,129 @@
+#include "stages/lift/lift.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "common/geometry/mesh_measures.h"
+#include "common/geometry/surface_lines.h"
+#include "common/geometry/surface_point.h"
+#include "stages/restrict/restrict.h"
+#include "tests/support/attributed.h"
+#include "tests/support/chain.h"
+#include "tests/unit/coarsen/coarse_samples.h"
+
+namespace strake {
+namespace {
+
+using coarsen_test::coarsened;
+
+/// A result on the coarser mesh of a surface.
+struct OnCoarser {
+  TriMesh mesh;
+  TriMesh coarse;
+  QuadMesh quads;
+};
+
+OnCoarser remeshed(const PolyMesh& soup, Index coarse_vertices, std::int64_t vertices) {
+  support::Prepared fine = support::prepare(soup);
+  support::Prepared working;
+  working.mesh = coarsened(fine.mesh, coarse_vertices);
+  working.field = restrict_field(working.mesh, fine.field);
+  TraceOptions options;
+  options.vertices = vertices;
+  QuadMesh quads = support::mesh(working, support::trace(working, options));
+  return {std::move(fine.mesh), std::move(working.mesh), std::move(quads)};
+}
+
+PolyMesh sample(SampleKind kind, std::int64_t faces) {
+  SampleOptions options;
+  options.faces = faces;
+  return make_sample(kind, options);
+}
+
+SurfacePoint foot_of(const QuadMesh& quads, Index v) {
+  return {quads.provenance.face[v], quads.provenance.barycentric[v]};
+}
+
+TEST(LiftQuads, VerticesStayAndFeetAreNearThem) {
+  const OnCoarser result = remeshed(sample(SampleKind::ellipsoid, 40000), 2000, 200);
+  const QuadMesh lifted = lift_quads(result.mesh, result.coarse, result.quads);
+  EXPECT_EQ(lifted.mesh_id, result.mesh.id);
+  EXPECT_EQ(lifted.mesh.positions, result.quads.mesh.positions);
+  EXPECT_EQ(lifted.mesh.corners, result.quads.mesh.corners);
+  double farthest = 0;
+  for (Index v = 0; v < lifted.mesh.vertex_count(); ++v) {
+    const Vec3 foot = result.mesh.origin + place_of(result.mesh, foot_of(lifted, v));
+    farthest = std::max(farthest, (foot - lifted.mesh.positions[v]).norm());
+    EXPECT_NEAR(lifted.provenance.barycentric[v][0] + lifted.provenance.barycentric[v][1] +
+                    lifted.provenance.barycentric[v][2],
+                1, 1e-12);
+  }
+  // 2000 vertices leave edges of about 0.1, which miss a radius of about 1 by 0.1^2 / 8.
+  EXPECT_LT(farthest, 0.003);
+  EXPECT_GT(farthest, 0);
+}
+
+TEST(LiftQuads, OnLinesFeetAreTheVerticesThemselves) {
+  const OnCoarser result = remeshed(sample(SampleKind::part, 20000), 3000, 600);
+  const QuadMesh lifted = lift_quads(result.mesh, result.coarse, result.quads);
+  Index on_lines = 0;
+  for (Index v = 0; v < lifted.mesh.vertex_count(); ++v) {
+    const SurfacePoint before = foot_of(result.quads, v);
+    const SurfacePoint after = foot_of(lifted, v);
+    const bool was_on_line = !SurfaceLines(result.coarse).places(before).empty();
+    const bool is_on_line = !SurfaceLines(result.mesh).places(after).empty();
+    if (was_on_line) {
+      ++on_lines;
+      EXPECT_TRUE(is_on_line) << v;
+      EXPECT_LT((place_of(result.mesh, after) - place_of(result.coarse, before)).norm(),
+                1e-12 * result.mesh.diagonal);
+    } else {
+      EXPECT_FALSE(is_on_line) << v;
+    }
+  }
+  EXPECT_GT(on_lines, 50);
+}
+
+/// The unit sphere, and inside it another one that faces the other way.
+PolyMesh thin_shell(double thickness) {
+  PolyMesh shell = sample(SampleKind::sphere, 20000);
+  const PolyMesh outside = shell;
+  const Index count = outside.vertex_count();
+  for (const Vec3& p : outside.positions) shell.positions.push_back((1 - thickness) * p);
+  for (Index f = 0; f < outside.face_count(); ++f) {
+    const auto face = outside.face(f);
+    shell.add_face(std::vector<Index>{count + face[0], count + face[2], count + face[1]});
+  }
+  return shell;
+}
+
+// The other side is often nearer than what the coarser mesh misses.
+TEST(LiftQuads, FeetStayOnTheirSideOfAShell) {
+  const OnCoarser result = remeshed(thin_shell(0.004), 1200, 150);
+  const QuadMesh lifted = lift_quads(result.mesh, result.coarse, result.quads);
+  const FaceNormals fine(result.mesh);
+  const FaceNormals coarse(result.coarse);
+  for (Index v = 0; v < lifted.mesh.vertex_count(); ++v) {
+    EXPECT_GT(fine[lifted.provenance.face[v]].dot(coarse[result.quads.provenance.face[v]]), 0) << v;
+  }
+}
+
+TEST(LiftQuads, CarriesAttributes) {
+  PolyMesh soup = sample(SampleKind::torus, 20000);
+  support::colour_linearly(soup);
+  const OnCoarser result = remeshed(soup, 1500, 150);
+  EXPECT_TRUE(result.quads.mesh.attributes.colour.empty());
+  const QuadMesh lifted = lift_quads(result.mesh, result.coarse, result.quads);
+  ASSERT_EQ(lifted.mesh.attributes.colour.size(), lifted.mesh.positions.size());
+  for (std::size_t v = 0; v < lifted.mesh.positions.size(); ++v) {
+    const Colour wanted = support::linear_colour(lifted.mesh.positions[v]);
+    for (int i = 0; i < 4; ++i) EXPECT_NEAR(lifted.mesh.attributes.colour[v][i], wanted[i], 0.005);
+  }
+}
+
+}  // namespace
+}  // namespace strake
