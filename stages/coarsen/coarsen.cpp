@@ -244,7 +244,8 @@ class Coarsening {
     const double old_longest = std::max(old_edges, kept.squaredNorm());
     const double new_longest = std::max(new_edges, kept.squaredNorm());
     const double new_shape = new_square / (new_longest * new_longest);
-    return new_shape >= std::min(kLeastShape * kLeastShape, old_square / (old_longest * old_longest));
+    return new_shape >=
+           std::min(kLeastShape * kLeastShape, old_square / (old_longest * old_longest));
   }
 
   /// Those that are looked at in one pass, cheapest first.
@@ -334,10 +335,9 @@ class Coarsening {
 
 }  // namespace
 
-CoarsenResult coarsen_mesh(const TriMesh& mesh, const CoarsenOptions& options,
-                           Observer& observer) {
-  const auto wanted = static_cast<Index>(
-      std::min<std::int64_t>(options.vertices, mesh.vertex_count()));
+CoarsenResult coarsen_mesh(const TriMesh& mesh, const CoarsenOptions& options, Observer& observer) {
+  const auto wanted =
+      static_cast<Index>(std::min<std::int64_t>(options.vertices, mesh.vertex_count()));
   Coarsening coarsening(mesh, wanted);
   const Index all = coarsening.vertices_left();
   const auto share_done = [&] {

@@ -8,7 +8,8 @@
 namespace strake {
 
 struct CoarsenOptions {
-  std::int64_t vertices = 100000;  ///< of the coarser mesh, beside those on feature and boundary lines
+  std::int64_t vertices =
+      100000;  ///< of the coarser mesh, beside those on feature and boundary lines
 
   OptionList declare();
 };

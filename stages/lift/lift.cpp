@@ -91,15 +91,14 @@ class Lift {
   }
 
   [[nodiscard]] SurfacePoint nearest(const SurfacePoint& at, const Vec3& place) const {
-    const int heaviest = static_cast<int>(std::ranges::max_element(at.barycentric) -
-                                          at.barycentric.begin());
+    const int heaviest =
+        static_cast<int>(std::ranges::max_element(at.barycentric) - at.barycentric.begin());
     const Index known = parent_of(3 * at.face + heaviest);
     const Index known_face = TriMesh::face_of(mesh_.vertex_out[known]);
     const Vec3 side = coarse_normals_[at.face];
-    const ClosestPoint found =
-        surface_.closest_if(place, (place - mesh_.positions[known]).norm(), [&](Index f) {
-          return f == known_face || normals_[f].dot(side) > kSameWay;
-        });
+    const ClosestPoint found = surface_.closest_if(
+        place, (place - mesh_.positions[known]).norm(),
+        [&](Index f) { return f == known_face || normals_[f].dot(side) > kSameWay; });
     SurfacePoint point = found.triangle == kNone ? at_vertex(known)
                                                  : SurfacePoint{found.triangle, found.barycentric};
     // It may touch a line, but is not of it.
@@ -122,9 +121,8 @@ QuadMesh lift_quads(const TriMesh& mesh, const TriMesh& coarse, const QuadMesh& 
   lifted.mesh_id = mesh.id;
   VertexProvenance& provenance = lifted.provenance;
   tbb::parallel_for(Index{0}, quads.mesh.vertex_count(), [&](Index v) {
-    const SurfacePoint foot =
-        lift.foot({quads.provenance.face[v], quads.provenance.barycentric[v]},
-                  quads.mesh.positions[v] - mesh.origin);
+    const SurfacePoint foot = lift.foot({quads.provenance.face[v], quads.provenance.barycentric[v]},
+                                        quads.mesh.positions[v] - mesh.origin);
     provenance.face[v] = foot.face;
     provenance.barycentric[v] = foot.barycentric;
   });

@@ -25,9 +25,9 @@ using coarsen_test::parent_vertex;
 using coarsen_test::sample;
 
 const std::vector<SampleKind> kAllKinds = {
-    SampleKind::plane, SampleKind::sphere,    SampleKind::cylinder,    SampleKind::open_cylinder,
-    SampleKind::torus, SampleKind::ellipsoid, SampleKind::hyperboloid, SampleKind::saddle,
-    SampleKind::part};
+    SampleKind::plane,         SampleKind::sphere, SampleKind::cylinder,
+    SampleKind::open_cylinder, SampleKind::torus,  SampleKind::ellipsoid,
+    SampleKind::hyperboloid,   SampleKind::saddle, SampleKind::part};
 
 /// Pairs of vertices of the finest mesh that feature and boundary edges join.
 std::set<std::pair<Index, Index>> barriers(const TriMesh& mesh,

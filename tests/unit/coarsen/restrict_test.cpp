@@ -41,8 +41,7 @@ TEST(RestrictField, IsTheFieldOfTheParentAtEveryWedge) {
   for (Index f = 0; f < coarse.face_count(); ++f) {
     const auto& [a, b, c] = coarse.face_wedges[f];
     const auto& confidence = field.wedge_confidence;
-    EXPECT_DOUBLE_EQ(field.face_confidence[f],
-                     (confidence[a] + confidence[b] + confidence[c]) / 3);
+    EXPECT_DOUBLE_EQ(field.face_confidence[f], (confidence[a] + confidence[b] + confidence[c]) / 3);
   }
 }
 
