@@ -1,6 +1,6 @@
-// Memory of programs: large blocks in large pages. Arrays of a million elements are written once and
-// freed a hundred times a run; with pages of 4 KB the kernel spends a tenth of it on handing them out.
-// Linked into programs only, so that a library never decides this for others.
+// Memory of programs: large blocks in large pages. Arrays of a million elements are written once
+// and freed a hundred times a run; with pages of 4 KB the kernel spends a tenth of it on handing
+// them out. Linked into programs only, so that a library never decides this for others.
 
 #include <malloc.h>
 #include <sys/mman.h>
