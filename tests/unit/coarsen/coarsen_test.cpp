@@ -151,7 +151,7 @@ TEST(CoarsenMesh, NoEdgeIsMuchLongerThanTheOthers) {
       longest = std::max(
           longest, (coarse.positions[coarse.to(h)] - coarse.positions[coarse.from(h)]).norm());
     }
-    // A sixth longer than twice the mean edge: 2.5 times the root of the area of a vertex.
+    // Edges made by a collapse are at most 2.5 times as long as the root of the area of a vertex.
     EXPECT_LT(longest, 2.6 * std::sqrt(area / wanted));
   }
 }
