@@ -163,7 +163,6 @@ void add_fields(py::module_& module) {
       .array("k_min", STRAKE_MEMBER(k_min), "[W] 1/length, |k_min| <= |k_max|")
       .array("k_max", STRAKE_MEMBER(k_max), "[W] 1/length, along normal x t_min")
       .array("cross", STRAKE_MEMBER(cross), "[W, 3] one arm of the cross that lines follow")
-      .array("detail", STRAKE_MEMBER(detail), "[W, 3] one arm of the cross that edges turn to")
       .array("wedge_confidence", STRAKE_MEMBER(wedge_confidence), "[W] in [0, 1]")
       .array("face_confidence", STRAKE_MEMBER(face_confidence), "[F] in [0, 1]")
       .plain("mesh_id", STRAKE_MEMBER(mesh_id), "of its mesh");

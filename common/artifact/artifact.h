@@ -23,7 +23,7 @@ enum class ArtifactKind { mesh, tensor, field, lines, quads, tensor_part, size }
 std::string kind_name(ArtifactKind kind);
 
 /// Newest format this program writes and reads; older ones stay readable.
-inline constexpr std::int64_t kFormatVersion = 2;
+inline constexpr std::int64_t kFormatVersion = 3;
 
 /// Writes an artifact atomically; equal values give equal bytes, and an equal file is not touched.
 ///

@@ -167,13 +167,11 @@ bool write_artifact(const std::filesystem::path& path, const PrincipalField& fie
   file.own("k_min", field.k_min);
   file.own("k_max", field.k_max);
   file.own("cross", field.cross);
-  file.own("detail", field.detail.empty() ? field.cross : field.detail);
   file.own("wedge_confidence", field.wedge_confidence);
   file.own("face_confidence", field.face_confidence);
   file.own("cross_extended", std::vector<std::uint8_t>{field.cross_extended});
   write_guides(file, field.guides);
-  for (const char* name :
-       {"normal", "t_min", "k_min", "k_max", "cross", "detail", "wedge_confidence"}) {
+  for (const char* name : {"normal", "t_min", "k_min", "k_max", "cross", "wedge_confidence"}) {
     file.show(name, std::string("PointData/") + name);
   }
   file.show("face_confidence", "CellData/face_confidence");
@@ -195,7 +193,6 @@ PrincipalField read_principal_field(const std::filesystem::path& path) {
   read_per_wedge("k_min", field.k_min);
   read_per_wedge("k_max", field.k_max);
   read_per_wedge("cross", field.cross);
-  if (file.version() >= 2) read_per_wedge("detail", field.detail);
   read_per_wedge("wedge_confidence", field.wedge_confidence);
   field.face_confidence = file.own<double>("face_confidence");
   file.require_finite(field.face_confidence, "face_confidence");

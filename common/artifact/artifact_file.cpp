@@ -87,7 +87,6 @@ ArtifactReader::ArtifactReader(const std::filesystem::path& path, ArtifactKind k
     file_.refuse("kind", "is '" + kind_name(found) + "' where '" + kind_name(kind) +
                              "' is needed; check the order of the files");
   }
-  version_ = file_.integer_attribute("format_version");
   mesh_id_ = file_.text_attribute("mesh_id");
 }
 

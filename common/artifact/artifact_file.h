@@ -78,8 +78,6 @@ class ArtifactReader {
  public:
   ArtifactReader(const std::filesystem::path& path, ArtifactKind kind);
 
-  /// Of the format that it was written in; up to kFormatVersion.
-  [[nodiscard]] std::int64_t version() const { return version_; }
   [[nodiscard]] const std::string& mesh_id() const { return mesh_id_; }
   template <class Row>
   [[nodiscard]] std::vector<Row> own(const std::string& name,
@@ -140,7 +138,6 @@ class ArtifactReader {
 
   hdf5::Reader file_;
   std::string group_;
-  std::int64_t version_ = 0;
   std::string mesh_id_;
 };
 

@@ -26,13 +26,10 @@ struct PrincipalField {
   std::vector<Vec3> t_min;    ///< [W] unit, orthogonal to `normal`; direction of k_min, sign free
   std::vector<double> k_min;  ///< [W] 1/length, |k_min| <= |k_max|; positive where convex
   std::vector<double> k_max;  ///< [W] 1/length, along normal x t_min
-  /// [W] unit, orthogonal to `normal`: one arm of the cross that lines follow. Equal to t_min where
-  /// the cross field was not extended; elsewhere the smooth continuation from reliable areas, which
-  /// is free to turn by multiples of a right angle.
+  /// [W] unit, orthogonal to `normal`: one arm of the cross that lines follow, and edges turn to.
+  /// Equal to t_min where the cross field was not extended; elsewhere the smooth continuation from
+  /// reliable areas, which is free to turn by multiples of a right angle.
   std::vector<Vec3> cross;
-  /// [W] unit, orthogonal to `normal`: one arm of a cross that follows the directions of smaller
-  /// details than lines can, for edges to turn to. Empty: they turn to `cross`.
-  std::vector<Vec3> detail;
   std::vector<double> wedge_confidence;  ///< [W] in [0, 1], mean over the wedge's faces
   std::vector<double> face_confidence;   ///< [F] in [0, 1], [MK04] equation 1, of t_min
   bool cross_extended = false;           ///< whether `cross` is the smooth 4-symmetric extension

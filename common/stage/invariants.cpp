@@ -50,8 +50,7 @@ std::string fault_of_distances(const std::vector<double>& some, const std::vecto
 }
 
 std::string fault_of(const PrincipalField& field) {
-  const bool directions =
-      finite(field.normal) && finite(field.t_min) && finite(field.cross) && finite(field.detail);
+  const bool directions = finite(field.normal) && finite(field.t_min) && finite(field.cross);
   const bool curvatures = finite(field.k_min) && finite(field.k_max);
   return fault_unless(
       directions && curvatures && finite(field.wedge_confidence) && finite(field.face_confidence),

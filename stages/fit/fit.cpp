@@ -35,11 +35,12 @@ constexpr double kHold = 0.02;
 /// Weight that holds it back on the surface: squared distance, in mean ones, that a move by the
 /// length of an edge is worth.
 constexpr double kHoldOnSurface = 10;
-/// Root mean square of the distance, as a share of the diagonal, below which it is no reason to
-/// leave vertices where they are: what is flat goes by directions and even steps alone.
-constexpr double kUnseen = 1e-6;
-/// The least hold on the surface, likewise, in squares of that: no vertex is entirely free.
-constexpr double kLeastHold = 0.1;
+/// Root mean square of the distance, as a share of the length of a mean cell, below which it is no
+/// reason to bend lines: they would snap to the edges of a tessellation, and what is flat goes by
+/// directions and even steps alone.
+constexpr double kUnseen = 0.005;
+/// The least hold on the surface, in squares of that: no vertex is entirely free.
+constexpr double kLeastHold = 0.03;
 /// A vertex moves by at most this share of the way to a neighbour in a round, and of its shortest
 /// edge along the normal.
 constexpr double kLongestMove = 0.25;
@@ -59,7 +60,6 @@ class Fit {
   Fit(const TriMesh& mesh, const PrincipalField* field, const QuadMesh& quads)
       : quads_(quads),
         field_(field),
-        unseen_(kUnseen * mesh.diagonal),
         surface_(mesh.positions, mesh.faces),
         places_(mesh, surface_, quads),
         deviation_(mesh, surface_, places_.face_normals(), places_.wedge_normals(),
@@ -68,6 +68,9 @@ class Fit {
         guard_(quads.mesh, places_),
         system_(lines_.neighbours()) {
     measure();
+    double area = 0;
+    for (const double share : vertex_areas()) area += share;
+    unseen_ = kUnseen * std::sqrt(area / quads.mesh.face_count());
   }
 
   /// Whether nothing can be moved without harm.
@@ -128,6 +131,17 @@ class Fit {
     deviation_.measure(places_.positions(), triangles_);
   }
 
+  /// [V] a third of the triangles around.
+  [[nodiscard]] std::vector<double> vertex_areas() const {
+    const std::vector<Vec3>& p = places_.positions();
+    std::vector<double> area(p.size(), 0.0);
+    for (const auto& [a, b, c] : triangles_) {
+      const double third = (p[b] - p[a]).cross(p[c] - p[a]).norm() / 6;
+      for (const Index v : {a, b, c}) area[v] += third;
+    }
+    return area;
+  }
+
   /// Puts vertices back where faces have got worse. \return whether none has at the end
   bool retreat(const std::vector<VertexPlaces::State>& start) {
     for (int i = 0; i < kMostRetreats; ++i) {
@@ -153,12 +167,7 @@ class Fit {
     system_.set_zero();
     deviation_.add_to(system_);
     lines_.add_to(system_, places_, field_, square);
-    const std::vector<Vec3>& p = places_.positions();
-    std::vector<double> area(p.size(), 0.0);
-    for (const auto& [a, b, c] : triangles_) {
-      const double third = (p[b] - p[a]).cross(p[c] - p[a]).norm() / 6;
-      for (const Index v : {a, b, c}) area[v] += third;
-    }
+    const std::vector<double> area = vertex_areas();
     const double on_surface = kHoldOnSurface * deviation_.mean() + kLeastHold * unseen_ * unseen_;
     std::vector<Mat3> freedom;
     for (Index v = 0; v < system_.size(); ++v) {
@@ -204,7 +213,7 @@ class Fit {
 
   const QuadMesh& quads_;
   const PrincipalField* field_;
-  double unseen_;  ///< length
+  double unseen_ = 0;  ///< length
   SurfaceDistance surface_;
   VertexPlaces places_;
   Deviation deviation_;

@@ -19,8 +19,8 @@ constexpr double kJointAngle = 150 * std::numbers::pi / 180;
 /// What it costs to leave the field's direction, to bend, and to leave the middle between
 /// neighbours; for the same angle.
 constexpr double kAlong = 150;
-constexpr double kStraight = 10;
-constexpr double kEven = 15;
+constexpr double kStraight = 25;
+constexpr double kEven = 5;
 /// T-joints that are corners of quads bend out of them where directions mean little, to an angle of
 /// 140 degrees: by this share of the way between their neighbours, and at this cost.
 constexpr double kBend = 0.18;

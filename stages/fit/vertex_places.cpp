@@ -156,13 +156,12 @@ double VertexPlaces::height(Index v) const {
 }
 
 Vec3 VertexPlaces::cross_arm(const PrincipalField& field, Index v) const {
-  const std::vector<Vec3>& arms = field.detail.empty() ? field.cross : field.detail;
   const TangentFrame frame = tangent_frame(normals_[v]);
   std::complex<double> sum = 0;
   for (int i = 0; i < 3; ++i) {
     const Index w = mesh_.face_wedges[foot_face_[v]][i];
     sum += foot_[v][i] * cross_power(frame.tangent_from_world(
-                             rotate_between(field.normal[w], normals_[v], arms[w])));
+                             rotate_between(field.normal[w], normals_[v], field.cross[w])));
   }
   if (std::abs(sum) < 1e-6) return Vec3::Zero();
   return frame.world_from_tangent(strake::cross_arm(sum, Vec2(1, 0)));

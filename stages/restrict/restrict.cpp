@@ -29,7 +29,6 @@ PrincipalField restrict_field(const TriMesh& coarse, const PrincipalField& field
   own.k_min = at_wedges(coarse, field.k_min);
   own.k_max = at_wedges(coarse, field.k_max);
   own.cross = at_wedges(coarse, field.cross);
-  own.detail = at_wedges(coarse, field.detail);
   own.wedge_confidence = at_wedges(coarse, field.wedge_confidence);
   own.cross_extended = field.cross_extended;
   own.face_confidence.reserve(coarse.faces.size());

@@ -17,9 +17,6 @@ using Complex = std::complex<double>;
 constexpr double kFeatureWeight = 100;  ///< against Dirichlet weights of order one
 constexpr double kGuideWeight = 100;    ///< likewise, on the faces that a guide passes
 constexpr double kBoundaryWeight = 5;  ///< scan boundaries are ragged: follow, but not at any price
-/// Stiffness of the cross that edges turn to, in that of the one that lines follow: it evens out
-/// over a third of the length.
-constexpr double kDetail = 8;
 constexpr double kLossAngle = 10 * M_PI / 180;  ///< of the loss of Geman and McClure
 constexpr int kReweightings = 6;
 /// When a solve is good enough, as a share of the holds to principal directions. What features and
@@ -137,29 +134,15 @@ Index solve_reweighted(CrossSystem& system, double tolerance, std::vector<Comple
   return solve(system.matrix, right, options, solution, space.solver);
 }
 
-/// Crosses of all wedges [W].
-struct Crosses {
-  std::vector<Complex> lines;   ///< that lines follow
-  std::vector<Complex> detail;  ///< that edges turn to
-  Index iterations = 0;         ///< of all solves
-};
-
-std::vector<Complex> solve_crosses(CrossSystem& system, Workspace& space, Index& iterations) {
+/// [W] the crosses. \param iterations  of all solves, are added to
+std::vector<Complex> solve_crosses(CrossSystem system, Index& iterations) {
+  Workspace space;
   std::vector<Complex> solution = system.principal;
   for (int round = 0; round <= kReweightings; ++round) {
     const double tolerance = round < kReweightings ? kRoughTolerance : kTolerance;
     iterations += solve_reweighted(system, tolerance, solution, space);
   }
   return solution;
-}
-
-Crosses solve_both(CrossSystem system) {
-  Crosses crosses;
-  Workspace space;
-  crosses.lines = solve_crosses(system, space, crosses.iterations);
-  for (double& hold : system.hold) hold *= kDetail;
-  crosses.detail = solve_crosses(system, space, crosses.iterations);
-  return crosses;
 }
 
 /// [W] one arm of each cross, in space; the principal direction where there is none.
@@ -180,11 +163,11 @@ std::vector<Vec3> arms_of(const std::vector<Complex>& crosses, const PrincipalFi
 
 Index extend_cross_field(const TriMesh& mesh, const WedgeGraph& graph, double stiffness,
                          const GuidePull& guides, PrincipalField& field) {
-  const Crosses crosses = solve_both(cross_system(mesh, graph, stiffness, guides, field));
-  field.cross = arms_of(crosses.lines, field);
-  field.detail = arms_of(crosses.detail, field);
+  Index iterations = 0;
+  field.cross = arms_of(
+      solve_crosses(cross_system(mesh, graph, stiffness, guides, field), iterations), field);
   field.cross_extended = true;
-  return crosses.iterations;
+  return iterations;
 }
 
 }  // namespace strake

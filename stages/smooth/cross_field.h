@@ -9,9 +9,8 @@
 
 namespace strake {
 
-/// Fills `field.cross`, and `field.detail` with eight times the stiffness, with the smoothest
-/// 4-symmetric direction field that holds to the principal directions where they are reliable and
-/// to feature and boundary lines.
+/// Fills `field.cross` with the smoothest 4-symmetric direction field that holds to the principal
+/// directions where they are reliable and to feature and boundary lines.
 ///
 /// Minimises the Dirichlet energy of cross_power(cross) plus, at every wedge, `stiffness` *
 /// confidence^2 * (k_max - k_min) / diagonal * area times a loss of the angle to the principal
@@ -22,9 +21,6 @@ namespace strake {
 /// surroundings altogether (noise, details smaller than those) to be given up instead of bending
 /// the field half-way. A few linear solves with weights from the solution before. Beyond [MK04];
 /// 4-symmetric after Palacios and Zhang 2007.
-///
-/// Lines can only turn within a few cells, while edges can each turn a little towards what is
-/// there: so they have a cross of their own that evens out over a third of that length.
 ///
 /// Guides hold like features on the faces that they pass. Within their reach their direction takes
 /// the place of the principal one, with a hold that fades out towards its end.

@@ -185,7 +185,6 @@ SmoothResult smooth_tensors(const TriMesh& mesh, TensorField tensor, const Smoot
     name_arms(field);
   } else {
     field.cross = field.t_min;
-    field.detail = field.t_min;
   }
   return result;
 }

@@ -160,7 +160,7 @@ bool same(const SizeField& a, const SizeField& b) {
 bool same(const PrincipalField& a, const PrincipalField& b) {
   return a.mesh_id == b.mesh_id && same(a.normal, b.normal) && same(a.t_min, b.t_min) &&
          same(a.k_min, b.k_min) && same(a.k_max, b.k_max) && same(a.cross, b.cross) &&
-         same(a.detail, b.detail) && same(a.wedge_confidence, b.wedge_confidence) &&
+         same(a.wedge_confidence, b.wedge_confidence) &&
          same(a.face_confidence, b.face_confidence) && a.cross_extended == b.cross_extended &&
          same(a.guides.offsets, b.guides.offsets) && same(a.guides.face, b.guides.face) &&
          same(a.guides.barycentric, b.guides.barycentric) && same(a.guides.step, b.guides.step);
@@ -197,7 +197,6 @@ Values make_values() {
     values.field.normal.push_back(numbers.vector());
     values.field.t_min.push_back(numbers.vector());
     values.field.cross.push_back(numbers.vector());
-    values.field.detail.push_back(numbers.vector());
     values.field.k_min.push_back(numbers());
     values.field.k_max.push_back(numbers());
     values.field.wedge_confidence.push_back(numbers());

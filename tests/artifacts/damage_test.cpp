@@ -115,14 +115,19 @@ TEST_P(Damage, NewerVersionsAreRefused) {
   EXPECT_THROW(read_artifact_info(file("a.hdf")), InputError);
 }
 
-// Before there was a cross for edges; all else was as it is.
-TEST_F(Damage, FieldsOfTheFirstVersionAreRead) {
-  Values values = make_values();
+// In the second, fields had a cross of their own for edges; all else was as it is.
+TEST_F(Damage, FieldsOfOlderVersionsAreRead) {
+  const Values values = make_values();
   write(file("a.hdf"), ArtifactKind::field, values, make_provenance());
-  edit([&](hid_t opened) { H5Ldelete(opened, "/field/detail", H5P_DEFAULT); });
-  set_version(1);
-  values.field.detail.clear();
-  EXPECT_TRUE(reads_equal(file("a.hdf"), ArtifactKind::field, values));
+  for (const int version : {1, 2}) {
+    set_version(version);
+    if (version == 2) {
+      edit([&](hid_t opened) {
+        H5Lcreate_hard(opened, "/field/cross", opened, "/field/detail", H5P_DEFAULT, H5P_DEFAULT);
+      });
+    }
+    EXPECT_TRUE(reads_equal(file("a.hdf"), ArtifactKind::field, values));
+  }
 }
 
 TEST_P(Damage, MissingDatasetsAreRefusedByName) {

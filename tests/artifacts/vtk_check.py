@@ -106,7 +106,7 @@ def main():
         require(mesh.GetCellType(0) == TRIANGLE, "mesh: cells are no triangles")
         check(read(folder / "tensor.hdf"), "tensor", faces, {"tensor": 6, "normal": 3}, [])
         check(read(folder / "field.hdf"), "field", faces,
-              {"normal": 3, "t_min": 3, "cross": 3, "detail": 3, "k_min": 1, "k_max": 1, "wedge_confidence": 1},
+              {"normal": 3, "t_min": 3, "cross": 3, "k_min": 1, "k_max": 1, "wedge_confidence": 1},
               ["face_confidence"])
         line_set = read(folder / "lines.hdf")
         check(line_set, "lines", lines, {"chord_family": 1},

@@ -33,7 +33,6 @@ TEST(RestrictField, IsTheFieldOfTheParentAtEveryWedge) {
     EXPECT_EQ(field.normal[w], fine.field.normal[parent]);
     EXPECT_EQ(field.t_min[w], fine.field.t_min[parent]);
     EXPECT_EQ(field.cross[w], fine.field.cross[parent]);
-    EXPECT_EQ(field.detail[w], fine.field.detail[parent]);
     EXPECT_EQ(field.k_min[w], fine.field.k_min[parent]);
     EXPECT_EQ(field.k_max[w], fine.field.k_max[parent]);
     EXPECT_EQ(field.wedge_confidence[w], fine.field.wedge_confidence[parent]);

@@ -122,22 +122,6 @@ TEST_F(CrossOnATube, FollowsWidePatches) {
   }
 }
 
-/// Between two patches of other directions the cross that edges turn to changes within a third of
-/// the length within which that of lines does.
-TEST_F(CrossOnATube, DetailsChangeFaster) {
-  for (Index w = 0; w < mesh_.wedge_count(); ++w) {
-    if (mesh_.positions[mesh_.wedge_vertex[w]].x() > 0) turn(w, 20 * kDegree);
-  }
-  extend();
-  double lines = 0;  // angles from what is wanted
-  double details = 0;
-  for (Index w = 0; w < mesh_.wedge_count(); ++w) {
-    lines += angle_to_cross(field_, w, field_.t_min[w]);
-    details += angle_to_arm(field_.detail[w], field_.normal[w], field_.t_min[w]);
-  }
-  EXPECT_LT(details, 0.6 * lines);
-}
-
 /// [Poincare and Hopf] The indices of a direction field on a closed surface add up to its Euler
 /// characteristic. With a fair mesh every face sees all of its own turn.
 TEST(CrossField, IndicesAddUpToTheEulerCharacteristic) {
