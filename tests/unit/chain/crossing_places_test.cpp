@@ -63,5 +63,27 @@ TEST(CrossingPlaces, AreNotWhereTheInputCrossesItself) {
   EXPECT_EQ(crossing.of(two_squares(kHere, -0.3)).size(), 2u);
 }
 
+/// An upright square of half this size through the plane z = 0.
+void add_upright(PolyMesh& mesh, double x, double y, double half) {
+  add_square(mesh, Vec3(x - half, y, -half), Vec3(x + half, y, -half), Vec3(x + half, y, half),
+             Vec3(x - half, y, half));
+}
+
+// The small one of two faces may be too far from where the input crosses itself.
+TEST(CrossingPlaces, AreNotWhereEitherFaceIsNearACrossingOfTheInput) {
+  PolyMesh tiles;
+  for (const double x : {-1.0, 0.0}) {
+    for (const double y : {-1.0, 0.0}) {
+      add_square(tiles, Vec3(x, y, 0), Vec3(x + 1, y, 0), Vec3(x + 1, y + 1, 0), Vec3(x, y + 1, 0));
+    }
+  }
+  add_upright(tiles, 0.5, 0.5, 0.1);
+  const TriMesh surface = triangles_of(tiles);
+  PolyMesh result;
+  add_square(result, Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(1, 1, 0), Vec3(-1, 1, 0));
+  add_upright(result, -0.5, -0.5, 0.1);
+  EXPECT_TRUE(CrossingPlaces(surface).of(result).empty());
+}
+
 }  // namespace
 }  // namespace strake
