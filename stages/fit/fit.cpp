@@ -38,7 +38,7 @@ constexpr double kHoldOnSurface = 10;
 /// Root mean square of the distance, as a share of the length of a mean cell, below which it is no
 /// reason to bend lines: they would snap to the edges of a tessellation, and what is flat goes by
 /// directions and even steps alone.
-constexpr double kUnseen = 0.005;
+constexpr double kUnseen = 0.007;
 /// The least hold on the surface, in squares of that: no vertex is entirely free.
 constexpr double kLeastHold = 0.03;
 /// A vertex moves by at most this share of the way to a neighbour in a round, and of its shortest

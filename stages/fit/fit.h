@@ -26,7 +26,7 @@ struct FitResult {
 /// Beyond [MK04], whose vertices stay on the surface where lines cross. Gauss-Newton steps on a sum
 /// of squares: area times the squared distance of result and surface, both ways (deviation.h), and
 /// the turn of edges against the field and of lines in their vertices (flow_lines.h), a radian
-/// worth as much as twelve times the present RMS distance, or half a percent of a cell. Vertices on
+/// worth as much as twelve times the present RMS distance, or 0.7 % of a cell. Vertices on
 /// feature and boundary lines slide along them, corners stay (vertex_places.h). A step is taken
 /// only where the sum falls, and leaves out vertices around which faces would become concave, thin,
 /// turned over, or cross others (face_guard.h). At the end faces that cross others are moved apart,

@@ -26,11 +26,11 @@ constexpr int kMostPairings = 16;
 /// The changes that bring faces beyond the tolerance, or to cross others.
 /// \param change_of_face  [F of the result]
 /// \return [changes] 1: one of them; all where it is none of them alone
-std::vector<char> harmful_changes(const TriMesh& mesh, const QuadMesh& changed,
-                                  std::span<const Redivision> changes,
+std::vector<char> harmful_changes(const std::shared_ptr<const InputSurface>& input,
+                                  const QuadMesh& changed, std::span<const Redivision> changes,
                                   const std::vector<Index>& change_of_face, double tolerance) {
   std::vector<char> harmful(changes.size(), 0);
-  const std::vector<Excess> excess = check_tolerance(ComparedSurfaces(mesh, changed), tolerance);
+  const std::vector<Excess> excess = check_tolerance(ComparedSurfaces(input, changed), tolerance);
   std::vector<std::uint8_t> is_near(changed.mesh.positions.size(), 0);  // a place beyond
   for (const Excess& e : excess) {
     if (change_of_face[e.cell] != kNone) {
@@ -80,13 +80,13 @@ bool adds_no_double_edge(std::span<const Index> face,
 
 }  // namespace
 
-void refill_within(const TriMesh& mesh, const SurfaceDistance& input, double tolerance,
+void refill_within(const std::shared_ptr<const InputSurface>& input, double tolerance,
                    QuadMesh& quads) {
   std::vector<Vec3> spared;
   for (int i = 0; i < kMostRefills; ++i) {
     QuadMesh refilled = quads;
-    if (refill_crossing_faces(mesh, input, refilled, tolerance, spared) == 0) return;
-    const std::vector<Excess> excess = check_tolerance(ComparedSurfaces(mesh, refilled), tolerance);
+    if (refill_crossing_faces(input->mesh, input->distance, refilled, tolerance, spared) == 0) return;
+    const std::vector<Excess> excess = check_tolerance(ComparedSurfaces(input, refilled), tolerance);
     if (excess.empty()) {
       quads = std::move(refilled);
       return;
@@ -95,8 +95,8 @@ void refill_within(const TriMesh& mesh, const SurfaceDistance& input, double tol
   }
 }
 
-void pair_odd_cells_within(const TriMesh& mesh, const SurfacePoints& points, double tolerance,
-                           QuadMesh& quads) {
+void pair_odd_cells_within(const std::shared_ptr<const InputSurface>& input,
+                           const SurfacePoints& points, double tolerance, QuadMesh& quads) {
   const auto foot = [&](Index v) {
     return SurfacePoint{quads.provenance.face[v], quads.provenance.barycentric[v]};
   };
@@ -110,7 +110,7 @@ void pair_odd_cells_within(const TriMesh& mesh, const SurfacePoints& points, dou
     std::vector<Index> change_of_face;
     changed.mesh = redivide_faces(quads.mesh, changes, change_of_face);
     const std::vector<char> harmful =
-        harmful_changes(mesh, changed, changes, change_of_face, tolerance);
+        harmful_changes(input, changed, changes, change_of_face, tolerance);
     std::vector<Redivision> harmless;
     for (std::size_t c = 0; c < changes.size(); ++c) {
       if (harmful[c] != 0) {
@@ -128,8 +128,9 @@ void pair_odd_cells_within(const TriMesh& mesh, const SurfacePoints& points, dou
   }
 }
 
-void cut_cells_in_doubt(const TriMesh& mesh, double tolerance, QuadMesh& quads) {
-  const std::vector<Index> in_doubt = cells_in_doubt(ComparedSurfaces(mesh, quads), tolerance);
+void cut_cells_in_doubt(const std::shared_ptr<const InputSurface>& input, double tolerance,
+                        QuadMesh& quads) {
+  const std::vector<Index> in_doubt = cells_in_doubt(ComparedSurfaces(input, quads), tolerance);
   if (in_doubt.empty()) return;
   const PolyEdges edges = collect_edges(quads.mesh);
   PolyMesh cut;

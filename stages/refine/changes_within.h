@@ -1,28 +1,29 @@
 #pragma once
 
+#include <memory>
+
 #include "common/core/poly_mesh.h"
-#include "common/core/tri_mesh.h"
-#include "common/geometry/surface_distance/surface_distance.h"
+#include "common/geometry/cell_error/compared_surfaces.h"
 #include "stages/refine/surface_points.h"
 
 namespace strake {
 
-// Changes of a result that check_tolerance proves to be within a tolerance, and that stays so.
-// Vertices stay where they are.
+// Changes of a result of `input` that check_tolerance proves to be within a tolerance, and that
+// stays so. Vertices stay where they are.
 
 /// Makes faces that cross others anew (refill_crossing.h) where the tolerance allows it.
-/// \param input  the faces of `mesh`
-void refill_within(const TriMesh& mesh, const SurfaceDistance& input, double tolerance,
+void refill_within(const std::shared_ptr<const InputSurface>& input, double tolerance,
                    QuadMesh& quads);
 
 /// Makes quads of odd faces near each other (redivide_faces.h), which dividing leaves, where the
 /// tolerance allows it and no faces come to cross. Edges along feature and boundary lines stay.
-/// \param points  of `mesh`
-void pair_odd_cells_within(const TriMesh& mesh, const SurfacePoints& points, double tolerance,
-                           QuadMesh& quads);
+/// \param points  of the input
+void pair_odd_cells_within(const std::shared_ptr<const InputSurface>& input,
+                           const SurfacePoints& points, double tolerance, QuadMesh& quads);
 
 /// Makes triangles of the cells that others could cut otherwise (see cells_in_doubt): those by
 /// which it was proven. A cell stays where an edge of theirs would be double.
-void cut_cells_in_doubt(const TriMesh& mesh, double tolerance, QuadMesh& quads);
+void cut_cells_in_doubt(const std::shared_ptr<const InputSurface>& input, double tolerance,
+                        QuadMesh& quads);
 
 }  // namespace strake

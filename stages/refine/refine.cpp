@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -98,10 +99,10 @@ class Refinement {
   }
 
   /// Changes what may be better in a result that is within the tolerance.
-  void finish(const SurfaceDistance& input, double tolerance) {
-    refill_within(mesh_, input, tolerance, quads_);
-    pair_odd_cells_within(mesh_, points_, tolerance, quads_);
-    cut_cells_in_doubt(mesh_, tolerance, quads_);
+  void finish(const std::shared_ptr<const InputSurface>& input, double tolerance) {
+    refill_within(input, tolerance, quads_);
+    pair_odd_cells_within(input, points_, tolerance, quads_);
+    cut_cells_in_doubt(input, tolerance, quads_);
   }
 
   /// Divides cells. \param tolerance  that edges are to keep
@@ -299,16 +300,17 @@ std::int64_t refine_to_tolerance(const TriMesh& mesh, Refinement& refinement,
                                  const RefineOptions& options, Observer& observer, Report& report) {
   const double wanted = options.tolerance->resolve(mesh.diagonal);
   const double tolerance = (1 - kMargin) * wanted;
-  refinement.put_back(SurfaceDistance(mesh.positions, mesh.faces), tolerance);
+  const auto input = std::make_shared<const InputSurface>(mesh);
+  refinement.put_back(input->distance, tolerance);
   std::size_t last = std::numeric_limits<std::size_t>::max();  // places before the last division
   std::size_t fewest = last;
   for (std::int64_t round = 0;; ++round) {
     observer.report("dividing cells", double(round) / double(options.rounds + 1));
-    const ComparedSurfaces surfaces(mesh, refinement.quads());
+    const ComparedSurfaces surfaces(input, refinement.quads());
     std::vector<Excess> excess = check_tolerance(surfaces, tolerance);
     report.set("refine.places_beyond", excess.size());
     if (excess.empty()) {
-      refinement.finish(surfaces.input(), tolerance);
+      refinement.finish(input, tolerance);
       return round;
     }
     fewest = std::min(fewest, excess.size());
@@ -388,13 +390,14 @@ void divide_without_faults(Refinement& refinement, const ComparedSurfaces& surfa
 /// Divides the worst cells until there are enough vertices. \return the rounds it took
 std::int64_t refine_to_count(const TriMesh& mesh, Refinement& refinement,
                              const RefineOptions& options, Observer& observer) {
+  const auto input = std::make_shared<const InputSurface>(mesh);
   std::int64_t round = 0;
   for (; round < std::min(options.rounds, kRoundsOfCount); ++round) {
     observer.report("dividing cells", double(round) / double(kRoundsOfCount));
     const std::int64_t missing = *options.vertices - refinement.quads().mesh.vertex_count();
     const auto cells = static_cast<double>(missing) / kVerticesPerCell;
     if (cells < 1) break;
-    const ComparedSurfaces surfaces(mesh, refinement.quads());
+    const ComparedSurfaces surfaces(input, refinement.quads());
     divide_without_faults(refinement, surfaces, cells_by_distance(surfaces),
                           static_cast<std::size_t>(cells));
   }

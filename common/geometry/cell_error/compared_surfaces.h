@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "common/core/poly_mesh.h"
@@ -11,13 +12,26 @@
 
 namespace strake {
 
+/// A surface that results are compared with, and what that takes: made once for all of them.
+struct InputSurface {
+  /// \param surface  kept by reference
+  explicit InputSurface(const TriMesh& surface)
+      : mesh(surface), distance(surface.positions, surface.faces), normals(surface) {}
+
+  const TriMesh& mesh;
+  SurfaceDistance distance;
+  FaceNormals normals;
+};
+
 /// A result beside the surface it approximates, both in the coordinates of the surface.
 class ComparedSurfaces {
  public:
-  /// \param mesh, quads  kept by reference. \pre `quads` was made from `mesh`
-  ComparedSurfaces(const TriMesh& mesh, const QuadMesh& quads);
+  /// \param quads  kept by reference. \pre it was made from the mesh of `input`
+  ComparedSurfaces(std::shared_ptr<const InputSurface> input, const QuadMesh& quads);
+  ComparedSurfaces(const TriMesh& mesh, const QuadMesh& quads)
+      : ComparedSurfaces(std::make_shared<const InputSurface>(mesh), quads) {}
 
-  [[nodiscard]] const TriMesh& mesh() const { return mesh_; }
+  [[nodiscard]] const TriMesh& mesh() const { return input_->mesh; }
   [[nodiscard]] const PolyMesh& faces() const { return quads_.mesh; }
   /// [V of the result] relative to the mesh's origin.
   [[nodiscard]] const std::vector<Vec3>& positions() const { return positions_; }
@@ -26,19 +40,17 @@ class ComparedSurfaces {
   /// First triangle of a face of the result; of the face after the last one, their number.
   [[nodiscard]] Index first_triangle(Index face) const { return first_[face]; }
 
-  [[nodiscard]] const SurfaceDistance& input() const { return input_; }
+  [[nodiscard]] const SurfaceDistance& input() const { return input_->distance; }
   [[nodiscard]] const SurfaceDistance& result() const { return result_; }
-  [[nodiscard]] const FaceNormals& input_normals() const { return input_normals_; }
+  [[nodiscard]] const FaceNormals& input_normals() const { return input_->normals; }
 
  private:
-  const TriMesh& mesh_;
+  std::shared_ptr<const InputSurface> input_;
   const QuadMesh& quads_;
   FaceTriangles triangles_;
   std::vector<Index> first_;
   std::vector<Vec3> positions_;
-  SurfaceDistance input_;
   SurfaceDistance result_;
-  FaceNormals input_normals_;
 };
 
 }  // namespace strake
