@@ -85,8 +85,10 @@ void refill_within(const std::shared_ptr<const InputSurface>& input, double tole
   std::vector<Vec3> spared;
   for (int i = 0; i < kMostRefills; ++i) {
     QuadMesh refilled = quads;
-    if (refill_crossing_faces(input->mesh, input->distance, refilled, tolerance, spared) == 0) return;
-    const std::vector<Excess> excess = check_tolerance(ComparedSurfaces(input, refilled), tolerance);
+    if (refill_crossing_faces(input->mesh, input->distance, refilled, tolerance, spared) == 0)
+      return;
+    const std::vector<Excess> excess =
+        check_tolerance(ComparedSurfaces(input, refilled), tolerance);
     if (excess.empty()) {
       quads = std::move(refilled);
       return;

@@ -12,8 +12,7 @@ std::vector<Vec3> moved(std::vector<Vec3> positions, const Vec3& origin) {
 
 }  // namespace
 
-ComparedSurfaces::ComparedSurfaces(std::shared_ptr<const InputSurface> input,
-                                   const QuadMesh& quads)
+ComparedSurfaces::ComparedSurfaces(std::shared_ptr<const InputSurface> input, const QuadMesh& quads)
     : input_(std::move(input)),
       quads_(quads),
       triangles_(triangulate_faces(quads.mesh)),

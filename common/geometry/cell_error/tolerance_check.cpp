@@ -1,5 +1,6 @@
 #include "common/geometry/cell_error/tolerance_check.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -10,6 +11,11 @@ namespace {
 
 /// Pieces with edges shorter than this share of the tolerance are not halved any more.
 constexpr double kSmallestPiece = 0.02;
+/// A point of a triangle is at most this share of the longest edge from the nearest corner; rounded
+/// up.
+constexpr double kFarthestInside = 0.57736;
+/// Corners in a row of which each is looked for near the foot of the one before.
+constexpr std::size_t kCornersInARow = 64;
 
 struct Corner {
   Vec3 place;
@@ -23,7 +29,10 @@ class PieceCheck {
   PieceCheck(const SurfaceDistance& other, double tolerance)
       : other_(other), tolerance_(tolerance) {}
 
-  [[nodiscard]] Corner corner(const Vec3& p) const { return {p, other_.closest(p)}; }
+  /// \param guess  triangle of the other surface near `p`; kNone: none is known
+  [[nodiscard]] Corner corner(const Vec3& p, Index guess) const {
+    return {p, other_.closest_near(p, guess)};
+  }
 
   /// Calls found(corner, distance) for places of the piece that are too far, or not proven not to
   /// be.
@@ -36,12 +45,13 @@ class PieceCheck {
       found(*worst, worst->foot.distance);
       return;
     }
-    const double bound = upper_bound(piece);
-    if (bound <= tolerance_) return;
     int longest = 0;
     for (int i = 1; i < 3; ++i) {
       if (edge(piece, i) > edge(piece, longest)) longest = i;
     }
+    if (worst->foot.distance + kFarthestInside * edge(piece, longest) <= tolerance_) return;
+    const double bound = upper_bound(piece);
+    if (bound <= tolerance_) return;
     if (edge(piece, longest) < kSmallestPiece * tolerance_) {
       found(*worst, bound);
       return;
@@ -49,7 +59,7 @@ class PieceCheck {
     const Corner& a = piece[longest];
     const Corner& b = piece[(longest + 1) % 3];
     const Corner& c = piece[(longest + 2) % 3];
-    const Corner middle = corner(0.5 * (a.place + b.place));
+    const Corner middle = corner(0.5 * (a.place + b.place), a.foot.triangle);
     check({a, middle, c}, found);
     check({middle, b, c}, found);
   }
@@ -97,8 +107,14 @@ std::vector<Worst> check_surface(const SurfaceDistance& own, const SurfaceDistan
   for (const auto& triangle : own.triangles()) {
     for (const Index v : triangle) used[v] = 1;
   }
-  tbb::parallel_for(std::size_t{0}, corners.size(), [&](std::size_t v) {
-    if (used[v] != 0) corners[v] = check.corner(own.positions()[v]);
+  const tbb::blocked_range<std::size_t> all(0, corners.size(), kCornersInARow);
+  tbb::parallel_for(all, [&](const auto& row) {
+    Index guess = kNone;
+    for (std::size_t v = row.begin(); v < row.end(); ++v) {
+      if (used[v] == 0) continue;
+      corners[v] = check.corner(own.positions()[v], guess);
+      guess = corners[v].foot.triangle;
+    }
   });
   std::vector<Worst> worst(own.triangles().size());
   tbb::parallel_for(std::size_t{0}, worst.size(), [&](std::size_t t) {
