@@ -26,11 +26,11 @@ constexpr int kMostPairings = 16;
 /// The changes that bring faces beyond the tolerance, or to cross others.
 /// \param change_of_face  [F of the result]
 /// \return [changes] 1: one of them; all where it is none of them alone
-std::vector<char> harmful_changes(const std::shared_ptr<const InputSurface>& input,
-                                  const QuadMesh& changed, std::span<const Redivision> changes,
-                                  const std::vector<Index>& change_of_face, double tolerance) {
+std::vector<char> harmful_changes(ToleranceProof& proof, const QuadMesh& changed,
+                                  std::span<const Redivision> changes,
+                                  const std::vector<Index>& change_of_face) {
   std::vector<char> harmful(changes.size(), 0);
-  const std::vector<Excess> excess = check_tolerance(ComparedSurfaces(input, changed), tolerance);
+  const std::vector<Excess> excess = proof.check(ComparedSurfaces(proof.input(), changed));
   std::vector<std::uint8_t> is_near(changed.mesh.positions.size(), 0);  // a place beyond
   for (const Excess& e : excess) {
     if (change_of_face[e.cell] != kNone) {
@@ -80,15 +80,15 @@ bool adds_no_double_edge(std::span<const Index> face,
 
 }  // namespace
 
-void refill_within(const std::shared_ptr<const InputSurface>& input, double tolerance,
-                   QuadMesh& quads) {
+void refill_within(ToleranceProof& proof, QuadMesh& quads) {
+  const InputSurface& input = *proof.input();
   std::vector<Vec3> spared;
   for (int i = 0; i < kMostRefills; ++i) {
     QuadMesh refilled = quads;
-    if (refill_crossing_faces(input->mesh, input->distance, refilled, tolerance, spared) == 0)
-      return;
-    const std::vector<Excess> excess =
-        check_tolerance(ComparedSurfaces(input, refilled), tolerance);
+    const Index made =
+        refill_crossing_faces(input.mesh, input.distance, refilled, proof.tolerance(), spared);
+    if (made == 0) return;
+    const std::vector<Excess> excess = proof.check(ComparedSurfaces(proof.input(), refilled));
     if (excess.empty()) {
       quads = std::move(refilled);
       return;
@@ -97,8 +97,7 @@ void refill_within(const std::shared_ptr<const InputSurface>& input, double tole
   }
 }
 
-void pair_odd_cells_within(const std::shared_ptr<const InputSurface>& input,
-                           const SurfacePoints& points, double tolerance, QuadMesh& quads) {
+void pair_odd_cells_within(ToleranceProof& proof, const SurfacePoints& points, QuadMesh& quads) {
   const auto foot = [&](Index v) {
     return SurfacePoint{quads.provenance.face[v], quads.provenance.barycentric[v]};
   };
@@ -111,8 +110,7 @@ void pair_odd_cells_within(const std::shared_ptr<const InputSurface>& input,
     QuadMesh changed = quads;
     std::vector<Index> change_of_face;
     changed.mesh = redivide_faces(quads.mesh, changes, change_of_face);
-    const std::vector<char> harmful =
-        harmful_changes(input, changed, changes, change_of_face, tolerance);
+    const std::vector<char> harmful = harmful_changes(proof, changed, changes, change_of_face);
     std::vector<Redivision> harmless;
     for (std::size_t c = 0; c < changes.size(); ++c) {
       if (harmful[c] != 0) {
@@ -130,9 +128,8 @@ void pair_odd_cells_within(const std::shared_ptr<const InputSurface>& input,
   }
 }
 
-void cut_cells_in_doubt(const std::shared_ptr<const InputSurface>& input, double tolerance,
-                        QuadMesh& quads) {
-  const std::vector<Index> in_doubt = cells_in_doubt(ComparedSurfaces(input, quads), tolerance);
+void cut_cells_in_doubt(ToleranceProof& proof, QuadMesh& quads) {
+  const std::vector<Index> in_doubt = proof.cells_in_doubt(ComparedSurfaces(proof.input(), quads));
   if (in_doubt.empty()) return;
   const PolyEdges edges = collect_edges(quads.mesh);
   PolyMesh cut;

@@ -99,10 +99,10 @@ class Refinement {
   }
 
   /// Changes what may be better in a result that is within the tolerance.
-  void finish(const std::shared_ptr<const InputSurface>& input, double tolerance) {
-    refill_within(input, tolerance, quads_);
-    pair_odd_cells_within(input, points_, tolerance, quads_);
-    cut_cells_in_doubt(input, tolerance, quads_);
+  void finish(ToleranceProof& proof) {
+    refill_within(proof, quads_);
+    pair_odd_cells_within(proof, points_, quads_);
+    cut_cells_in_doubt(proof, quads_);
   }
 
   /// Divides cells. \param tolerance  that edges are to keep
@@ -300,17 +300,17 @@ std::int64_t refine_to_tolerance(const TriMesh& mesh, Refinement& refinement,
                                  const RefineOptions& options, Observer& observer, Report& report) {
   const double wanted = options.tolerance->resolve(mesh.diagonal);
   const double tolerance = (1 - kMargin) * wanted;
-  const auto input = std::make_shared<const InputSurface>(mesh);
-  refinement.put_back(input->distance, tolerance);
+  ToleranceProof proof(std::make_shared<const InputSurface>(mesh), tolerance);
+  refinement.put_back(proof.input()->distance, tolerance);
   std::size_t last = std::numeric_limits<std::size_t>::max();  // places before the last division
   std::size_t fewest = last;
   for (std::int64_t round = 0;; ++round) {
     observer.report("dividing cells", double(round) / double(options.rounds + 1));
-    const ComparedSurfaces surfaces(input, refinement.quads());
-    std::vector<Excess> excess = check_tolerance(surfaces, tolerance);
+    const ComparedSurfaces surfaces(proof.input(), refinement.quads());
+    std::vector<Excess> excess = proof.check(surfaces);
     report.set("refine.places_beyond", excess.size());
     if (excess.empty()) {
-      refinement.finish(input, tolerance);
+      refinement.finish(proof);
       return round;
     }
     fewest = std::min(fewest, excess.size());

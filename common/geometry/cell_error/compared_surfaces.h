@@ -31,6 +31,7 @@ class ComparedSurfaces {
   ComparedSurfaces(const TriMesh& mesh, const QuadMesh& quads)
       : ComparedSurfaces(std::make_shared<const InputSurface>(mesh), quads) {}
 
+  [[nodiscard]] const std::shared_ptr<const InputSurface>& shared_input() const { return input_; }
   [[nodiscard]] const TriMesh& mesh() const { return input_->mesh; }
   [[nodiscard]] const PolyMesh& faces() const { return quads_.mesh; }
   /// [V of the result] relative to the mesh's origin.

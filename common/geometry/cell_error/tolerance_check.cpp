@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/container_hash/hash.hpp>
+#include <utility>
 
 namespace strake {
 namespace {
@@ -36,25 +38,28 @@ class PieceCheck {
 
   /// Calls found(corner, distance) for places of the piece that are too far, or not proven not to
   /// be.
+  /// \return a triangle of the other surface that no point of the piece is too far from; kNone
+  /// where one is, or it takes several triangles to tell
   template <class Found>
-  void check(const Piece& piece, const Found& found) const {
+  Index check(const Piece& piece, const Found& found) const {
     const auto worst = std::max_element(
         piece.begin(), piece.end(),
         [](const Corner& a, const Corner& b) { return a.foot.distance < b.foot.distance; });
     if (worst->foot.distance > tolerance_) {
       found(*worst, worst->foot.distance);
-      return;
+      return kNone;
     }
+    const auto [bound, triangle] = upper_bound(piece);
+    if (bound <= tolerance_) return triangle;
     int longest = 0;
     for (int i = 1; i < 3; ++i) {
       if (edge(piece, i) > edge(piece, longest)) longest = i;
     }
-    if (worst->foot.distance + kFarthestInside * edge(piece, longest) <= tolerance_) return;
-    const double bound = upper_bound(piece);
-    if (bound <= tolerance_) return;
-    if (edge(piece, longest) < kSmallestPiece * tolerance_) {
+    const double length = edge(piece, longest);
+    if (worst->foot.distance + kFarthestInside * length <= tolerance_) return kNone;
+    if (length < kSmallestPiece * tolerance_) {
       found(*worst, bound);
-      return;
+      return kNone;
     }
     const Corner& a = piece[longest];
     const Corner& b = piece[(longest + 1) % 3];
@@ -62,6 +67,7 @@ class PieceCheck {
     const Corner middle = corner(0.5 * (a.place + b.place), a.foot.triangle);
     check({a, middle, c}, found);
     check({middle, b, c}, found);
+    return kNone;
   }
 
  private:
@@ -69,20 +75,20 @@ class PieceCheck {
     return (piece[i].place - piece[(i + 1) % 3].place).norm();
   }
 
-  /// The least, over the triangles nearest to the corners, of the distance that no point of the
-  /// piece exceeds.
-  [[nodiscard]] double upper_bound(const Piece& piece) const {
-    double least = std::numeric_limits<double>::infinity();
+  /// The least, over the triangles nearest to the corners, of the distance from one that no point
+  /// of the piece exceeds; and that triangle.
+  [[nodiscard]] std::pair<double, Index> upper_bound(const Piece& piece) const {
+    std::pair<double, Index> least{std::numeric_limits<double>::infinity(), kNone};
     for (int i = 0; i < 3; ++i) {
       const auto& t = other_.triangles()[piece[i].foot.triangle];
       const auto& p = other_.positions();
       double largest = piece[i].foot.distance;
-      for (int j = 0; j < 3 && largest < least; ++j) {
+      for (int j = 0; j < 3 && largest < least.first; ++j) {
         if (j == i) continue;
         largest = std::max(
             largest, closest_point_on_triangle(piece[j].place, p[t[0]], p[t[1]], p[t[2]]).distance);
       }
-      least = std::min(least, largest);
+      if (largest < least.first) least = {largest, piece[i].foot.triangle};
     }
     return least;
   }
@@ -91,21 +97,23 @@ class PieceCheck {
   double tolerance_;
 };
 
-/// The worst place of one triangle.
-struct Worst {
+/// What is known of one triangle: its worst place that is beyond the tolerance, if any.
+struct Verdict {
   double distance = 0;
   Vec3 place = Vec3::Zero();
-  Index on_other = kNone;
+  Index on_other = kNone;  ///< nearest to that place; kNone: none is beyond
+  Index covering = kNone;  ///< triangle of the other surface that is near to all of this one
 };
 
-/// [triangles] of one surface.
-std::vector<Worst> check_surface(const SurfaceDistance& own, const SurfaceDistance& other,
-                                 double tolerance) {
+/// [triangles] of one surface. \param is_proven  [triangles] 1: need not be looked at
+std::vector<Verdict> check_surface(const SurfaceDistance& own, const SurfaceDistance& other,
+                                   double tolerance, const std::vector<char>& is_proven) {
   const PieceCheck check(other, tolerance);
   std::vector<Corner> corners(own.positions().size());
   std::vector<char> used(corners.size(), 0);
-  for (const auto& triangle : own.triangles()) {
-    for (const Index v : triangle) used[v] = 1;
+  for (std::size_t t = 0; t < own.triangles().size(); ++t) {
+    if (is_proven[t] != 0) continue;
+    for (const Index v : own.triangles()[t]) used[v] = 1;
   }
   const tbb::blocked_range<std::size_t> all(0, corners.size(), kCornersInARow);
   tbb::parallel_for(all, [&](const auto& row) {
@@ -116,28 +124,30 @@ std::vector<Worst> check_surface(const SurfaceDistance& own, const SurfaceDistan
       guess = corners[v].foot.triangle;
     }
   });
-  std::vector<Worst> worst(own.triangles().size());
-  tbb::parallel_for(std::size_t{0}, worst.size(), [&](std::size_t t) {
+  std::vector<Verdict> verdicts(own.triangles().size());
+  tbb::parallel_for(std::size_t{0}, verdicts.size(), [&](std::size_t t) {
+    if (is_proven[t] != 0) return;
     const auto& [a, b, c] = own.triangles()[t];
-    check.check({corners[a], corners[b], corners[c]}, [&](const Corner& at, double distance) {
-      if (distance > worst[t].distance) worst[t] = {distance, at.place, at.foot.triangle};
-    });
+    Verdict& verdict = verdicts[t];
+    verdict.covering =
+        check.check({corners[a], corners[b], corners[c]}, [&](const Corner& at, double distance) {
+          if (distance > verdict.distance) verdict = {distance, at.place, at.foot.triangle};
+        });
   });
-  return worst;
+  return verdicts;
 }
 
 /// \param cell  [triangles of the result] its face
-std::vector<Excess> check_both_ways(const SurfaceDistance& result, const std::vector<Index>& cell,
-                                    const SurfaceDistance& input, double tolerance) {
+std::vector<Excess> excess_of(const std::vector<Verdict>& of_result,
+                              const std::vector<Verdict>& of_input,
+                              const std::vector<Index>& cell) {
   std::vector<Excess> excess;
-  const std::vector<Worst> of_result = check_surface(result, input, tolerance);
   for (std::size_t t = 0; t < of_result.size(); ++t) {
-    const Worst& worst = of_result[t];
+    const Verdict& worst = of_result[t];
     if (worst.on_other != kNone) excess.push_back({worst.distance, worst.place, cell[t], kNone});
   }
-  const std::vector<Worst> of_input = check_surface(input, result, tolerance);
   for (std::size_t t = 0; t < of_input.size(); ++t) {
-    const Worst& worst = of_input[t];
+    const Verdict& worst = of_input[t];
     if (worst.on_other == kNone) continue;
     excess.push_back({worst.distance, worst.place, cell[worst.on_other], static_cast<Index>(t)});
   }
@@ -147,14 +157,71 @@ std::vector<Excess> check_both_ways(const SurfaceDistance& result, const std::ve
 }  // namespace
 
 std::vector<Excess> check_tolerance(const ComparedSurfaces& surfaces, double tolerance) {
-  return check_both_ways(surfaces.result(), surfaces.triangles().face, surfaces.input(), tolerance);
+  return ToleranceProof(surfaces.shared_input(), tolerance).check(surfaces);
 }
 
-std::vector<Index> cells_in_doubt(const ComparedSurfaces& surfaces, double tolerance) {
+std::size_t ToleranceProof::Hash::operator()(const Triangle& triangle) const {
+  return boost::hash_range(triangle.begin(), triangle.end());
+}
+
+ToleranceProof::ToleranceProof(std::shared_ptr<const InputSurface> input, double tolerance)
+    : input_(std::move(input)),
+      tolerance_(tolerance),
+      covering_(input_->mesh.faces.size(), kNone) {}
+
+/// Takes what is known of the last result to the triangles of the next one.
+void ToleranceProof::carry_over(const SurfaceDistance& result) {
+  const auto& triangles = result.triangles();
+  std::unordered_map<Triangle, Index, Hash> number;
+  number.reserve(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    Triangle places;
+    for (std::size_t i = 0; i < 9; ++i) places[i] = result.positions()[triangles[t][i / 3]][i % 3];
+    number.try_emplace(places, static_cast<Index>(t));
+  }
+  std::vector<Index> now(is_proven_.size(), kNone);
+  std::vector<char> is_proven(triangles.size(), 0);
+  for (const auto& [places, before] : number_) {
+    const auto found = number.find(places);
+    if (found == number.end()) continue;
+    now[before] = found->second;
+    is_proven[found->second] = is_proven_[before];
+  }
+  for (Index& covering : covering_) {
+    if (covering != kNone) covering = now[covering];
+  }
+  number_ = std::move(number);
+  is_proven_ = std::move(is_proven);
+}
+
+std::vector<Excess> ToleranceProof::check(const ComparedSurfaces& surfaces) {
+  return check(surfaces.result(), surfaces.triangles().face);
+}
+
+/// \param cell  [triangles of the result] its face
+std::vector<Excess> ToleranceProof::check(const SurfaceDistance& result,
+                                          const std::vector<Index>& cell) {
+  carry_over(result);
+  std::vector<char> is_covered(covering_.size());
+  for (std::size_t f = 0; f < is_covered.size(); ++f) is_covered[f] = covering_[f] != kNone ? 1 : 0;
+  const std::vector<Verdict> of_result =
+      check_surface(result, input_->distance, tolerance_, is_proven_);
+  const std::vector<Verdict> of_input =
+      check_surface(input_->distance, result, tolerance_, is_covered);
+  for (std::size_t t = 0; t < of_result.size(); ++t) {
+    if (of_result[t].on_other == kNone) is_proven_[t] = 1;
+  }
+  for (std::size_t f = 0; f < of_input.size(); ++f) {
+    if (is_covered[f] == 0) covering_[f] = of_input[f].covering;
+  }
+  return excess_of(of_result, of_input, cell);
+}
+
+std::vector<Index> ToleranceProof::cells_in_doubt(const ComparedSurfaces& surfaces) {
   std::vector<Index> in_doubt;
   for (const FaceTriangles& other : other_triangulations(surfaces.faces())) {
     const SurfaceDistance result(surfaces.positions(), other.corners);
-    const auto excess = check_both_ways(result, other.face, surfaces.input(), tolerance);
+    const std::vector<Excess> excess = check(result, other.face);
     if (excess.empty()) continue;
     std::vector<char> is_near(surfaces.positions().size(), 0);
     for (const Excess& e : excess) {

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <array>
+#include <functional>
+#include <memory>
+#include <unordered_map>
 #include <vector>
 
 #include "common/geometry/cell_error/compared_surfaces.h"
@@ -27,9 +31,40 @@ struct Excess {
 /// tolerance.
 std::vector<Excess> check_tolerance(const ComparedSurfaces& surfaces, double tolerance);
 
-/// The faces of a result that may be beyond the tolerance for whoever measures it again, as
-/// rounding alone decides how they are cut into triangles (see `other_triangulations`), and those
-/// beside them of which that is so. \pre `check_tolerance` finds nothing \return ascending
-std::vector<Index> cells_in_doubt(const ComparedSurfaces& surfaces, double tolerance);
+/// `check_tolerance` for one result after another of the same input: triangles of a result that
+/// were in the one before, and those of the input that one of them is near to, need not be proven
+/// again.
+class ToleranceProof {
+ public:
+  /// \param tolerance  model units, positive
+  ToleranceProof(std::shared_ptr<const InputSurface> input, double tolerance);
+
+  [[nodiscard]] const std::shared_ptr<const InputSurface>& input() const { return input_; }
+  [[nodiscard]] double tolerance() const { return tolerance_; }
+
+  /// \return as `check_tolerance`. \pre `surfaces` compares with `input`
+  std::vector<Excess> check(const ComparedSurfaces& surfaces);
+
+  /// The faces of a result that may be beyond the tolerance for whoever measures it again, as
+  /// rounding alone decides how they are cut into triangles (see `other_triangulations`), and those
+  /// beside them of which that is so. \pre `check` finds nothing \return ascending
+  std::vector<Index> cells_in_doubt(const ComparedSurfaces& surfaces);
+
+ private:
+  /// Coordinates of the three corners.
+  using Triangle = std::array<double, 9>;
+  struct Hash {
+    std::size_t operator()(const Triangle& triangle) const;
+  };
+
+  std::vector<Excess> check(const SurfaceDistance& result, const std::vector<Index>& cell);
+  void carry_over(const SurfaceDistance& result);
+
+  std::shared_ptr<const InputSurface> input_;
+  double tolerance_;
+  std::unordered_map<Triangle, Index, Hash> number_;  ///< of the last result's triangles
+  std::vector<char> is_proven_;                       ///< [triangles of it] 1: nowhere beyond
+  std::vector<Index> covering_;  ///< [F] triangle of it near to all of the face; kNone: unknown
+};
 
 }  // namespace strake

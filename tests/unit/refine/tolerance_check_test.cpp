@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <random>
 
 #include "common/geometry/cell_error/cell_error.h"
@@ -15,6 +16,10 @@ namespace {
 using support::bent_strip;
 using support::Case;
 using support::grid;
+
+std::vector<Index> cells_in_doubt(const ComparedSurfaces& surfaces, double tolerance) {
+  return ToleranceProof(surfaces.shared_input(), tolerance).cells_in_doubt(surfaces);
+}
 
 bool is_within(const Case& c, double tolerance) {
   return check_tolerance(ComparedSurfaces(c.mesh, c.quads), tolerance).empty();
@@ -109,6 +114,46 @@ TEST(ToleranceCheck, AgreesWithSamplesOnTerrain) {
       EXPECT_GE(e.distance, 0.95 * high);
     }
   }
+}
+
+/// The faces in reverse order.
+void turn_round(PolyMesh& mesh) {
+  PolyMesh turned;
+  for (Index f = mesh.face_count() - 1; f >= 0; --f) turned.add_face(mesh.face(f));
+  mesh.corners = turned.corners;
+  mesh.offsets = turned.offsets;
+}
+
+/// Whatever changes from one result to the next, and back again.
+TEST(ToleranceProof, FindsWhatANewCheckFinds) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> height(0, 0.02);
+  std::uniform_real_distribution<double> lift(-0.1, 0.1);
+  Case c = grid(24, 6, [&](double, double) { return height(random); });
+  const std::vector<Vec3> places = c.quads.mesh.positions;
+  constexpr double kTolerance = 0.03;
+  ToleranceProof proof(std::make_shared<const InputSurface>(c.mesh), kTolerance);
+  int within = 0;
+  for (int step = 0; step < 40; ++step) {
+    if (step % 4 == 3) c.quads.mesh.positions = places;
+    if (step % 4 == 1) {
+      c.quads.mesh.positions[random() % places.size()].z() += lift(random);
+    }
+    if (step % 5 == 4) turn_round(c.quads.mesh);
+    const ComparedSurfaces surfaces(proof.input(), c.quads);
+    const std::vector<Excess> found = proof.check(surfaces);
+    const std::vector<Excess> expected = check_tolerance(surfaces, kTolerance);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_EQ(found[i].cell, expected[i].cell);
+      EXPECT_EQ(found[i].input_face, expected[i].input_face);
+      EXPECT_EQ(found[i].place, expected[i].place);
+      EXPECT_EQ(found[i].distance, expected[i].distance);
+    }
+    within += found.empty() ? 1 : 0;
+  }
+  EXPECT_GT(within, 10);
+  EXPECT_LT(within, 30);
 }
 
 /// The same excesses for any number of threads, and when both surfaces are moved.
