@@ -201,7 +201,7 @@ FAULTS = [
           "test_refine", "^ToleranceCheck|^Refine"),
     Fault("pieces count as proven that may be half as far again",
           "common/geometry/cell_error/tolerance_check.cpp",
-          "if (bound <= tolerance_) return;", "if (bound <= 1.5 * tolerance_) return;",
+          "if (bound <= tolerance_) return triangle;", "if (bound <= 1.5 * tolerance_) return triangle;",
           "test_refine", "^ToleranceCheck|^Refine"),
     Fault("distances between lines that were lowered lower no others",
           "stages/trace/grading.cpp",

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/container_hash/hash.hpp>
+#include <bit>
 #include <utility>
 
 namespace strake {
@@ -161,7 +161,13 @@ std::vector<Excess> check_tolerance(const ComparedSurfaces& surfaces, double tol
 }
 
 std::size_t ToleranceProof::Hash::operator()(const Triangle& triangle) const {
-  return boost::hash_range(triangle.begin(), triangle.end());
+  constexpr std::uint64_t kGoldenRatio = 0x9E3779B97F4A7C15U;  // Knuth, volume 3, section 6.4
+  std::uint64_t hash = 0;
+  for (const std::uint64_t bits : triangle) {
+    hash = (hash ^ bits) * kGoldenRatio;
+    hash ^= hash >> 32U;
+  }
+  return hash;
 }
 
 ToleranceProof::ToleranceProof(std::shared_ptr<const InputSurface> input, double tolerance)
@@ -175,8 +181,10 @@ void ToleranceProof::carry_over(const SurfaceDistance& result) {
   std::unordered_map<Triangle, Index, Hash> number;
   number.reserve(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    Triangle places;
-    for (std::size_t i = 0; i < 9; ++i) places[i] = result.positions()[triangles[t][i / 3]][i % 3];
+    Triangle places{};
+    for (std::size_t i = 0; i < 9; ++i) {
+      places[i] = std::bit_cast<std::uint64_t>(result.positions()[triangles[t][i / 3]][i % 3]);
+    }
     number.try_emplace(places, static_cast<Index>(t));
   }
   std::vector<Index> now(is_proven_.size(), kNone);

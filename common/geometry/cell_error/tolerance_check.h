@@ -1,7 +1,7 @@
 #pragma once
 
 #include <array>
-#include <functional>
+#include <cstdint>
 #include <memory>
 #include <unordered_map>
 #include <vector>
@@ -51,8 +51,8 @@ class ToleranceProof {
   std::vector<Index> cells_in_doubt(const ComparedSurfaces& surfaces);
 
  private:
-  /// Coordinates of the three corners.
-  using Triangle = std::array<double, 9>;
+  /// Bits of the coordinates of the three corners.
+  using Triangle = std::array<std::uint64_t, 9>;
   struct Hash {
     std::size_t operator()(const Triangle& triangle) const;
   };
