@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <random>
@@ -12,7 +13,6 @@
 #include "common/geometry/poly_topology/poly_topology.h"
 #include "common/geometry/samples/samples.h"
 #include "common/geometry/surface_distance/surface_distance.h"
-#include "stages/fit/vertex_places.h"
 #include "tests/support/chain.h"
 #include "tests/support/matchers.h"
 #include "tests/support/mesh_support.h"
@@ -52,28 +52,6 @@ PolyMesh icosphere(int level) {
   mesh.positions = positions;
   for (const auto& face : faces) mesh.add_face(face);
   return mesh;
-}
-
-/// A vertex on the boundary moves along it as far as a corner, however far it should go.
-TEST(VertexPlaces, StopAtTheEndOfTheirLine) {
-  PolyMesh triangle;
-  triangle.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
-  triangle.add_face(std::array<Index, 3>{0, 1, 2});
-  TriMesh mesh = support::plain_tri_mesh(triangle);
-  mesh.is_corner.assign(3, 1);
-  QuadMesh quads;
-  quads.mesh = triangle;
-  quads.mesh.positions[0] = Vec3(0.4, 0, 0);
-  quads.provenance.face = {0, 0, 0};
-  quads.provenance.barycentric = {{0.6, 0.4, 0}, {0, 1, 0}, {0, 0, 1}};
-  const SurfaceDistance surface(mesh.positions, mesh.faces);
-  fitting::VertexPlaces places(mesh, surface, quads);
-  places.move(0, Vec3(0.3, 5, 5));
-  EXPECT_LT((places.positions()[0] - Vec3(0.7, 0, 0)).norm(), 1e-15);
-  places.move(0, Vec3(10, 0, 0));
-  EXPECT_EQ(places.positions()[0], triangle.positions[1]);
-  places.move(0, Vec3(-20, 0, 0));
-  EXPECT_EQ(places.positions()[0], triangle.positions[0]);
 }
 
 /// A polygon mesh as a result, each vertex put on the nearest point of the mesh.
@@ -148,24 +126,38 @@ TEST(Fit, WorksAtAnyPlaceAndScale) {
   }
 }
 
-/// Mean angle between the edges of a result and the nearer of the two circles of the torus around z
-/// whose tube has its middle at distance `major`, degrees.
-double turn_on_torus(const PolyMesh& mesh, double major) {
+/// Mean angle between the edges of a result and the nearer of two directions, degrees.
+/// \param directions_at  the two directions at the middle of an edge
+template <class DirectionsAt>
+double mean_turn(const PolyMesh& mesh, const DirectionsAt& directions_at) {
   double sum = 0;
   for (Index f = 0; f < mesh.face_count(); ++f) {
     const std::span<const Index> face = mesh.face(f);
     for (std::size_t i = 0; i < face.size(); ++i) {
       const Vec3& p = mesh.positions[face[i]];
       const Vec3 way = mesh.positions[face[(i + 1) % face.size()]] - p;
-      const Vec3 middle = p + way / 2;
-      const Vec3 out = Vec3(middle.x(), middle.y(), 0).normalized();
-      const Vec3 around = Vec3::UnitZ().cross(out);
-      const Vec3 normal = (middle - major * out).normalized();
-      sum += std::min(support::line_angle(way, around),
-                      support::line_angle(way, normal.cross(around)));
+      const std::array<Vec3, 2> directions = directions_at(Vec3(p + way / 2));
+      sum += std::min(support::line_angle(way, directions[0]),
+                      support::line_angle(way, directions[1]));
     }
   }
   return sum / static_cast<double>(mesh.corners.size()) * 180 / M_PI;
+}
+
+/// From the two circles of the torus around z whose tube has its middle at distance `major`.
+double turn_on_torus(const PolyMesh& mesh, double major) {
+  return mean_turn(mesh, [&](const Vec3& middle) {
+    const Vec3 out = Vec3(middle.x(), middle.y(), 0).normalized();
+    const Vec3 around = Vec3::UnitZ().cross(out);
+    return std::array<Vec3, 2>{around, (middle - major * out).normalized().cross(around)};
+  });
+}
+
+/// From axis and circle of the cylinder around z.
+double turn_on_cylinder(const PolyMesh& mesh) {
+  return mean_turn(mesh, [](const Vec3& middle) {
+    return std::array<Vec3, 2>{Vec3::UnitZ(), Vec3(-middle.y(), middle.x(), 0)};
+  });
 }
 
 // Quads along the circles of a torus, every vertex shaken on the surface: with the field edges turn
@@ -202,22 +194,6 @@ TEST(Fit, TurnsEdgesTowardsTheField) {
   EXPECT_LT(turn_on_torus(with.mesh, major), 0.3 * before);
   EXPECT_LT(turn_on_torus(with.mesh, major),
             turn_on_torus(fitted(surface.mesh, shaken).mesh, major));
-}
-
-/// Mean angle between edges and the nearer of axis and circle of the cylinder around z, degrees.
-double turn_on_cylinder(const PolyMesh& mesh) {
-  double sum = 0;
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    const std::span<const Index> face = mesh.face(f);
-    for (std::size_t i = 0; i < face.size(); ++i) {
-      const Vec3& p = mesh.positions[face[i]];
-      const Vec3 way = mesh.positions[face[(i + 1) % face.size()]] - p;
-      const Vec3 middle = p + way / 2;
-      sum += std::min(support::line_angle(way, Vec3::UnitZ()),
-                      support::line_angle(way, Vec3(-middle.y(), middle.x(), 0)));
-    }
-  }
-  return sum / static_cast<double>(mesh.corners.size()) * 180 / M_PI;
 }
 
 // Where a result is nearly as fine as the triangles that it was made from, it could still win by
