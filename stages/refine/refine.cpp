@@ -303,7 +303,7 @@ std::int64_t refine_to_tolerance(const TriMesh& mesh, Refinement& refinement,
   ToleranceProof proof(std::make_shared<const InputSurface>(mesh), tolerance);
   refinement.put_back(proof.input()->distance, tolerance);
   std::size_t last = std::numeric_limits<std::size_t>::max();  // places before the last division
-  std::size_t fewest = last;
+  std::vector<Excess> fewest;  // where dividing came nearest, of all rounds
   for (std::int64_t round = 0;; ++round) {
     observer.report("dividing cells", double(round) / double(options.rounds + 1));
     const ComparedSurfaces surfaces(proof.input(), refinement.quads());
@@ -313,15 +313,16 @@ std::int64_t refine_to_tolerance(const TriMesh& mesh, Refinement& refinement,
       refinement.finish(proof);
       return round;
     }
-    fewest = std::min(fewest, excess.size());
-    if (round == options.rounds || excess.size() > kHopeless * std::max(fewest, kFewPlaces)) {
+    if (round == 0 || excess.size() <= fewest.size()) fewest = excess;
+    if (round == options.rounds ||
+        excess.size() > kHopeless * std::max(fewest.size(), kFewPlaces)) {
       if (options.partly) return round;
       std::vector<Vec3> places;
-      for (const Excess& e : excess) places.push_back(e.place);
+      for (const Excess& e : fewest) places.push_back(e.place);
       throw ToleranceError(
           fmt::format("the result is farther than {:.6g} from the surface, after {} rounds of "
                       "dividing cells: {}; use a larger tolerance or more --refine-rounds",
-                      wanted, round, describe(std::move(excess), mesh, tolerance)),
+                      wanted, round, describe(std::move(fewest), mesh, tolerance)),
           std::move(places));
     }
     if (round >= kRoundsOfDividing && excess.size() >= last) {

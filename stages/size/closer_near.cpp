@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 
 #include "common/geometry/surface_distance/surface_distance.h"
 
@@ -48,12 +49,12 @@ class Neighbourhoods {
 
 }  // namespace
 
-SizeField closer_near(const TriMesh& mesh, const LineSet& lines, const std::vector<Vec3>& places,
-                      double factor) {
-  SizeField size;
-  size.mesh_id = mesh.id;
-  size.along = lines.spacing_along_min;
-  size.across = lines.spacing_along_max;
+SizeField used_distances(const LineSet& lines) {
+  return {lines.mesh_id, lines.spacing_along_min, lines.spacing_along_max};
+}
+
+SizeField closer_near(const TriMesh& mesh, const SizeField& wanted, const SizeField& used,
+                      const std::vector<Vec3>& places, double factor) {
   const SurfaceDistance surface(mesh.positions, mesh.faces);
   Neighbourhoods neighbourhoods(mesh);
   std::vector<Index> wedges;
@@ -61,17 +62,22 @@ SizeField closer_near(const TriMesh& mesh, const LineSet& lines, const std::vect
     const Index face = surface.closest(place).triangle;
     double reach = 0;
     for (const Index w : mesh.face_wedges[face]) {
-      reach = std::max({reach, kReach * size.along[w], kReach * size.across[w]});
+      reach = std::max({reach, kReach * used.along[w], kReach * used.across[w]});
     }
+    const auto way = [&](Index w) { return (mesh.positions[mesh.wedge_vertex[w]] - place).norm(); };
+    // Of large faces only what is near, but one corner at least: distances are those of corners.
+    wedges.push_back(*std::ranges::min_element(mesh.face_wedges[face], {}, way));
     for (const Index f : neighbourhoods.around(face, place, reach)) {
-      wedges.insert(wedges.end(), mesh.face_wedges[f].begin(), mesh.face_wedges[f].end());
+      std::ranges::copy_if(mesh.face_wedges[f], std::back_inserter(wedges),
+                           [&](Index w) { return way(w) <= reach; });
     }
   }
   std::sort(wedges.begin(), wedges.end());
   wedges.erase(std::unique(wedges.begin(), wedges.end()), wedges.end());
+  SizeField size = wanted;
   for (const Index w : wedges) {
-    size.along[w] *= factor;
-    size.across[w] *= factor;
+    size.along[w] = std::min(size.along[w], factor * used.along[w]);
+    size.across[w] = std::min(size.across[w], factor * used.across[w]);
   }
   return size;
 }

@@ -8,15 +8,20 @@
 
 namespace strake {
 
-/// Distances of lines as they were, but closer around some places of the surface.
+/// The distances that lines were traced at.
+SizeField used_distances(const LineSet& lines);
+
+/// Wanted distances, but closer than lines were around some places of the surface.
 ///
 /// Beyond [MK04], for where lines at the distances that curvature asks for miss a tip, a pit or a
 /// fold. The change is sudden; the tracing stage evens distances out.
-/// \param lines   of `mesh`: the distances used
+/// \param wanted  [W] of `mesh`: before they were evened out, as those that were would shrink
+///                everywhere when they are again
+/// \param used    [W] that lines were traced at
 /// \param places  model units, relative to the mesh's origin, on the surface or near it
-/// \param factor  on both distances there, from 0 to 1
+/// \param factor  on both used distances there, from 0 to 1
 /// Cost: the faces within two line distances of each place.
-SizeField closer_near(const TriMesh& mesh, const LineSet& lines, const std::vector<Vec3>& places,
-                      double factor);
+SizeField closer_near(const TriMesh& mesh, const SizeField& wanted, const SizeField& used,
+                      const std::vector<Vec3>& places, double factor);
 
 }  // namespace strake

@@ -6,31 +6,21 @@
 #include <utility>
 
 #include "common/core/error.h"
-#include "stages/size/closer_near.h"
 
 namespace strake {
 namespace {
 
-/// Factor on the distances of lines around faces that cross.
-constexpr double kCloser = 0.7;
-constexpr Index kMostAttempts = 5;
+constexpr Index kMostAttempts = 8;
 /// Faces of all attempts together; one is made of any number.
 constexpr Index kMostFaces = 200000;
 /// Attempts that may leave more than half of the faces that cross.
-constexpr int kPatience = 3;
+constexpr int kPatience = 5;
 /// Where more faces cross the shape is finer than its lines all over.
 constexpr std::size_t kMostPlaces = 1000;
 
 }  // namespace
 
-void want_closer(Session& session, const std::vector<Vec3>& places, double factor) {
-  session.provide(
-      "size",
-      closer_near(session.get<TriMesh>("mesh"), session.get<LineSet>("lines"), places, factor),
-      "closer lines", "");
-}
-
-Attempt part_faces(const Attempt& first, Index faces, const std::function<Attempt(Session)>& again,
+Attempt part_faces(const Attempt& first, Index faces, const Again& again,
                    const std::function<void(Attempt&)>& keep) {
   Attempt best = first;
   Attempt last = first;
@@ -46,9 +36,8 @@ Attempt part_faces(const Attempt& first, Index faces, const std::function<Attemp
     const std::vector<Vec3> before = last.places;
     session.say(fmt::format("{} faces cross; tracing closer lines around {} places",
                             best.places.size(), last.places.size()));
-    want_closer(session, last.places, kCloser);
     try {
-      last = again(std::move(session));
+      last = again(std::move(session), before);
     } catch (const AlgorithmError&) {
       is_last_best = false;
       break;

@@ -16,19 +16,17 @@ struct Attempt {
   bool misses_goal = false;  ///< else `places` are faces that cross
 };
 
-/// From now on, wants lines at their present distances, but closer around some places. The scale of
-/// distances is for the caller to set: these have it in them, unless a count sets theirs.
-/// \param factor  on the distances there, from 0 to 1
-void want_closer(Session& session, const std::vector<Vec3>& places, double factor);
+/// See `part_faces`.
+using Again = std::function<Attempt(Session, const std::vector<Vec3>& places)>;
 
-/// Where lines lie across a tip or a fold, its cells come to cross. Wants closer lines at such
-/// faces and makes the result again, as long as that helps.
+/// Where lines lie across a tip or a fold, its cells come to cross. Makes the result again with
+/// closer lines at such faces, as long as that helps.
 /// \param first     does not miss its goal
 /// \param faces     of its result: the more, the fewer attempts
-/// \param again     makes and keeps a result at the distances that the session wants
+/// \param again     makes and keeps a result like a session's, with closer lines around places
 /// \param keep      keeps one again
 /// \return the attempt that meets its goal with the fewest faces that cross; it is the one kept
-Attempt part_faces(const Attempt& first, Index faces, const std::function<Attempt(Session)>& again,
+Attempt part_faces(const Attempt& first, Index faces, const Again& again,
                    const std::function<void(Attempt&)>& keep);
 
 }  // namespace strake

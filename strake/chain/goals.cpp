@@ -10,6 +10,7 @@
 
 #include "common/core/error.h"
 #include "common/core/tolerance_error.h"
+#include "stages/size/closer_near.h"
 #include "strake/chain/attempt.h"
 #include "strake/chain/count_search.h"
 #include "strake/chain/crossing_places.h"
@@ -47,17 +48,15 @@ constexpr double kAimedAt = 0.45;
 /// Times that cells are divided and vertices fitted again on the way to a tolerance. Fitting makes
 /// many cells good enough that would be divided without.
 constexpr int kFittedRefinements = 2;
-/// Times that all lines are traced again at this share of their distances where dividing cells does
-/// not reach a tolerance.
+/// Times that lines are traced closer around the places where dividing cells does not reach a
+/// tolerance, and at which share of their distances.
+constexpr int kCloserPlaces = 8;
+constexpr double kCloserThere = 0.5;
+/// Times that all lines are, where that is not enough, and at which share.
 constexpr int kCloserLines = 2;
 constexpr double kCloser = 0.6;
-/// Times that lines are traced closer only around the places left, where that does not help either,
-/// and at which share. Cells are divided less then: where it takes many rounds they lie across a
-/// tip or a fold.
-constexpr int kCloserPlaces = 5;
-constexpr double kCloserThere = 0.5;
-constexpr int kFewRounds = 2;
-constexpr int kAllRounds = std::numeric_limits<int>::max();
+/// Share of the distances of lines around faces that cross.
+constexpr double kCloserWhereCrossing = 0.7;
 /// Scale on distances that were those of lines, and have theirs in them. Where a count is wanted
 /// the stage scales them to it first, and the scale found for that stays.
 constexpr const char* kScaleOfLines = "1";
@@ -244,6 +243,29 @@ void search_with_density(Session& session, const GoalStages& stages, const Densi
   best.take(session);
 }
 
+/// Wants lines closer around some places. \param wanted  see `closer_near`
+void want_closer(Session& session, const SizeField& wanted, const std::vector<Vec3>& places,
+                 double factor) {
+  const SizeField used = used_distances(session.get<LineSet>("lines"));
+  session.provide("size", closer_near(session.get<TriMesh>("mesh"), wanted, used, places, factor),
+                  "closer lines", "");
+}
+
+/// The same on the way to a tolerance: distances elsewhere stay.
+void want_closer_there(Session& session, const GoalStages& stages, const std::vector<Vec3>& places,
+                       double factor) {
+  const Option& scale = stages.trace.option("spacing-scale");
+  SizeField wanted = used_distances(session.get<LineSet>("lines"));
+  if (session.has("size")) {
+    wanted = session.get<SizeField>("size");
+    for (auto* distances : {&wanted.along, &wanted.across}) {
+      for (double& d : *distances) d *= std::stod(scale.value());
+    }
+  }
+  want_closer(session, wanted, places, factor);
+  scale.parse_into(kScaleOfLines);
+}
+
 /// Fits the refined result once more.
 void fit_refined(Session& session, const GoalStages& stages) {
   session.provide_as("quads", session.get<QuadMesh>("refined"), "refined");
@@ -252,20 +274,18 @@ void fit_refined(Session& session, const GoalStages& stages) {
 
 /// Divides cells and fits vertices in turn, and divides once more.
 /// \return what the result misses; nothing where "refined" is within the tolerance
-std::optional<ToleranceError> refine_in_turn(Session& session, const GoalStages& stages,
-                                             int most_rounds) {
+std::optional<ToleranceError> refine_in_turn(Session& session, const GoalStages& stages) {
   const Option& rounds = stages.refine.option("refine-rounds");
   const Option& partly = stages.refine.option("refine-partly");
   const std::string all_rounds = rounds.value();
   const std::string may_miss = partly.value();
-  const int last_rounds = std::min(most_rounds, std::stoi(all_rounds));
   partly.parse_into("true");
-  for (int i = 0; i < std::min(kFittedRefinements, last_rounds); ++i) {
+  for (int i = 0; i < std::min(kFittedRefinements, std::stoi(all_rounds)); ++i) {
     rounds.parse_into("1");
     session.run(stages.refine);
     fit_refined(session, stages);
   }
-  rounds.parse_into(std::to_string(last_rounds));
+  rounds.parse_into(all_rounds);
   partly.parse_into(may_miss);
   std::optional<ToleranceError> miss;
   try {
@@ -273,50 +293,36 @@ std::optional<ToleranceError> refine_in_turn(Session& session, const GoalStages&
   } catch (const ToleranceError& error) {
     miss = error;
   }
-  rounds.parse_into(all_rounds);
   if (!miss) session.keep(stages.refine);
   return miss;
 }
 
-/// Traces at the distances that the options ask for, then closer and closer around the places that
-/// dividing cells does not bring within the tolerance.
+/// Traces at the distances that the options ask for, and closer where dividing cells does not reach
+/// the tolerance: around the places that are left, and everywhere where that is not enough.
 /// \return what is within it
-/// \throw ToleranceError where that is not enough
-Attempt close_in(Session& session, const GoalStages& stages, CrossingPlaces& crossing) {
+/// \throw ToleranceError where nothing helps
+Attempt trace_within(Session& session, const GoalStages& stages, CrossingPlaces& crossing,
+                     int times_everywhere) {
   const Option& scale = stages.trace.option("spacing-scale");
   for (int trial = 0;; ++trial) {
-    const bool is_last = trial == kCloserPlaces;
     trace_mesh_and_fit(session, stages);
     const Session meshed = session;
-    const std::optional<ToleranceError> miss =
-        refine_in_turn(session, stages, is_last ? kAllRounds : kFewRounds);
-    if (!miss) return {meshed, session, crossing.of(session.get<QuadMesh>("refined").mesh)};
-    if (is_last) throw *miss;
-    session.say(fmt::format("tracing closer lines around {} places", miss->places().size()));
-    want_closer(session, miss->places(), kCloserThere);
-    scale.parse_into(kScaleOfLines);
-  }
-}
-
-/// Traces at the distances that the options ask for, and closer everywhere where dividing cells
-/// does not reach the tolerance, or then around the places left.
-/// \return what is within it
-/// \throw ToleranceError where that is not enough
-Attempt trace_within(Session& session, const GoalStages& stages, CrossingPlaces& crossing) {
-  const Option& scale = stages.trace.option("spacing-scale");
-  const std::string first_scale = scale.value();
-  for (int trial = 0; trial <= kCloserLines; ++trial) {
-    trace_mesh_and_fit(session, stages);
-    const Session meshed = session;
-    const std::optional<ToleranceError> miss = refine_in_turn(session, stages, kAllRounds);
+    const std::optional<ToleranceError> miss = refine_in_turn(session, stages);
     if (!miss) return {meshed, session, crossing.of(session.get<QuadMesh>("refined").mesh)};
     if (stages.refine.option("refine-rounds").value() == "0") throw *miss;
-    session.say("dividing cells does not reach the tolerance; tracing closer lines");
-    const double closer_scale = kCloser * std::stod(scale.value());
-    scale.parse_into(fmt::format("{}", std::clamp(closer_scale, scale.min, scale.max)));
+    if (trial == kCloserPlaces + times_everywhere) throw *miss;
+    if (trial < kCloserPlaces) {
+      session.say(
+          fmt::format("tracing closer lines around {} places that dividing cells does not bring "
+                      "within the tolerance",
+                      miss->places().size()));
+      want_closer_there(session, stages, miss->places(), kCloserThere);
+    } else {
+      session.say("dividing cells does not reach the tolerance; tracing closer lines");
+      const double closer_scale = kCloser * std::stod(scale.value());
+      scale.parse_into(fmt::format("{}", std::clamp(closer_scale, scale.min, scale.max)));
+    }
   }
-  scale.parse_into(first_scale);
-  return close_in(session, stages, crossing);
 }
 
 /// Vertices or faces that dividing cells is to add to those that lines give.
@@ -371,7 +377,8 @@ void trace_to_count(Session& session, const GoalStages& stages, Counted counted,
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
   const Attempt first = fit_to_count(session, stages, aim, crossing);
   const double first_miss = aim.miss(count_of(first.done, "fitted", counted));
-  const auto again = [&](Session next) {
+  const auto again = [&](Session next, const std::vector<Vec3>& places) {
+    want_closer(next, used_distances(next.get<LineSet>("lines")), places, kCloserWhereCrossing);
     search_scale(next, stages, aim);
     Attempt attempt = fit_to_count(next, stages, aim, crossing);
     const double miss = aim.miss(count_of(attempt.done, "fitted", counted));
@@ -429,14 +436,10 @@ std::string meet_tolerance(Session& session, const GoalStages& stages, const std
     shrink_to_tolerance(session, stages, tolerance);
   }
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
-  const Attempt first = trace_within(session, stages, crossing);
-  const auto again = [&](Session next) -> Attempt {
-    stages.trace.option("spacing-scale").parse_into(kScaleOfLines);
-    trace_mesh_and_fit(next, stages);
-    const Session meshed = next;
-    const std::optional<ToleranceError> miss = refine_in_turn(next, stages, kAllRounds);
-    if (miss) return {meshed, next, miss->places(), true};
-    return {meshed, next, crossing.of(next.get<QuadMesh>("refined").mesh)};
+  const Attempt first = trace_within(session, stages, crossing, kCloserLines);
+  const auto again = [&](Session next, const std::vector<Vec3>& places) {
+    want_closer_there(next, stages, places, kCloserWhereCrossing);
+    return trace_within(next, stages, crossing, 0);
   };
   const auto keep = [&](Attempt& attempt) {
     keep_fitted(attempt.meshed, stages);

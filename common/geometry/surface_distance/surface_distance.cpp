@@ -37,8 +37,9 @@ ClosestPoint closest_on_thin_triangle(const Vec3& p, const Vec3& a, const Vec3& 
     const double u = normal.dot((b - p).cross(c - p)) / area2;
     const double v = normal.dot((c - p).cross(a - p)) / area2;
     const double w = 1 - u - v;
+    // Not by the normal: cancellation leaves little of it, but the point is in the triangle.
     if (u >= 0 && v >= 0 && w >= 0) {
-      return {kNone, std::abs((p - a).dot(normal)) / std::sqrt(area2), {u, v, w}};
+      return {kNone, (p - a - v * (b - a) - w * (c - a)).norm(), {u, v, w}};
     }
   }
   const ClosestPoint on_ab = closest_on_segment(p, a, b);
@@ -54,16 +55,17 @@ ClosestPoint closest_on_thin_triangle(const Vec3& p, const Vec3& a, const Vec3& 
   return best;
 }
 
-/// Share that rounding may take from the distance of a box.
-constexpr double kBoxRounding = 1e-12;
+/// What rounding may take from the distance to a triangle, as a share of how far its box reaches
+/// from the point.
+constexpr double kRounding = 1e-14;
 
 /// Whether the box around a triangle is farther than a distance, which costs a fraction of looking
 /// for its nearest point.
 bool is_box_beyond(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c, double distance) {
   const Vec3 below = a.cwiseMin(b).cwiseMin(c) - p;
   const Vec3 above = p - a.cwiseMax(b).cwiseMax(c);
-  return below.cwiseMax(above).cwiseMax(0.0).squaredNorm() * (1 - kBoxRounding) >
-         distance * distance;
+  const double allowed = distance - kRounding * std::min(below.minCoeff(), above.minCoeff());
+  return below.cwiseMax(above).cwiseMax(0.0).squaredNorm() > allowed * allowed;
 }
 
 /// What a query carries through the hierarchy.

@@ -120,5 +120,22 @@ TEST(Remesh, LinesAreCloserWhereAToleranceIsExceeded) {
   }
 }
 
+// Cells between claws lie over more than one side of them, and no division brings these within the
+// tolerance: what is far from claws needs no more vertices for that than without any.
+TEST(Remesh, LinesAreCloserOnlyWhereDividingDoesNotReachTheTolerance) {
+  SampleOptions sample;
+  sample.faces = 8000;
+  const auto vertices_below = [](const PolyMesh& mesh) {
+    RemeshOptions options;
+    options.trace.tolerance = {0.03, false};
+    options.measure = false;
+    const RemeshResult result = remesh({mesh, {}, {}, {}}, options);
+    const auto is_below = [](const Vec3& p) { return p.z() < -0.2; };
+    return static_cast<double>(std::ranges::count_if(result.quads.mesh.positions, is_below));
+  };
+  EXPECT_LT(vertices_below(claws(6, 0.3, 0.08, 0.6, 8000)),
+            1.5 * vertices_below(make_sample(SampleKind::sphere, sample)));
+}
+
 }  // namespace
 }  // namespace strake

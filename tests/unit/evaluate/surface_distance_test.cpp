@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <random>
 
 #include "common/core/error.h"
@@ -126,6 +127,26 @@ TEST(SurfaceDistance, FilterAndReachAreRespected) {
   EXPECT_EQ(surface.closest_if(p, 4, only_second).triangle, 1);
   EXPECT_EQ(surface.closest_if(p, 3.99, only_second).triangle, kNone);
   EXPECT_EQ(surface.closest_if(p, 10, [](Index) { return false; }).triangle, kNone);
+}
+
+// The distance to a triangle and the one to its box are rounded each in its way: points lie a hair
+// from corners and edges of triangles, from well shaped ones to segments.
+TEST(SurfaceDistance, ATriangleIsFoundWithinItsOwnDistance) {
+  Random random;
+  for (int i = 0; i < 260; ++i) {
+    const Vec3 a = random.point(1).cwiseProduct(Vec3(1e-6, 1, 1));
+    const Vec3 b = a + (i % 2 == 0 ? Vec3(random.point(1).x() * Vec3::UnitY()) : random.point(1));
+    const Vec3 c = b + std::pow(10.0, -(i % 13)) * random.point(1);
+    const std::vector<Vec3> positions = {a, b, c};
+    const std::vector<std::array<Index, 3>> triangles = {{0, 1, 2}};
+    const SurfaceDistance surface(positions, triangles);
+    for (int k = 0; k < 200; ++k) {
+      Vec3 p = a + k / 200.0 * (b - a);
+      p.x() = std::nextafter(p.x(), k % 2 == 0 ? 2.0 : -2.0);
+      const double reach = closest_point_on_triangle(p, a, b, c).distance;
+      EXPECT_EQ(surface.closest_within(p, reach).triangle, 0) << i << " " << k;
+    }
+  }
 }
 
 TEST(SurfaceDistance, NothingToMeasureAgainstIsRefused) {

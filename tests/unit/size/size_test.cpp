@@ -165,24 +165,39 @@ TEST(Size, ErrorsCountTimesTheDensity) {
               std::pow(4, 0.4), 0.1);
 }
 
-/// Around a place, on a plane, and nowhere else; what was used before stays in it.
+/// Around a place, on a plane: closer than lines were, never farther than wanted.
 TEST(CloserNear, MultipliesTheDistancesAroundPlaces) {
   const Case c = grid(64, 8, [](double, double) { return 0.0; });
   LineSet lines = used_lines(c.mesh);
   for (double& d : lines.spacing_along_max) d *= 0.5;
+  const SizeField used = used_distances(lines);
+  SizeField wanted = used;
+  for (double& d : wanted.along) d *= 1.5;   // more than lines used
+  for (double& d : wanted.across) d *= 0.1;  // less than they are to be
   const Vec3 place(0.25, 0.5, 0);
-  const SizeField size = closer_near(c.mesh, lines, {place, place}, 0.25);
+  const SizeField size = closer_near(c.mesh, wanted, used, {place, place}, 0.25);
   const double reach = 2 * kUsed;
-  const double edge = 0.05;  // longer than the edges of the grid
   for (Index w = 0; w < c.mesh.wedge_count(); ++w) {
     const double distance = (c.mesh.positions[c.mesh.wedge_vertex[w]] - place).norm();
-    const double factor = size.along[w] / kUsed;
-    EXPECT_DOUBLE_EQ(size.across[w], 0.5 * size.along[w]);
-    if (distance <= reach) {
-      EXPECT_DOUBLE_EQ(factor, 0.25) << distance;
-    } else if (distance > reach + edge) {
-      EXPECT_DOUBLE_EQ(factor, 1) << distance;
-    }
+    EXPECT_EQ(size.along[w], distance <= reach ? 0.25 * kUsed : 1.5 * kUsed) << distance;
+    EXPECT_EQ(size.across[w], wanted.across[w]);
+  }
+}
+
+/// Distances are those of vertices: a place amid a face far larger than the reach takes one of
+/// them.
+TEST(CloserNear, TakesTheNearestCornerOfALargeFace) {
+  const Case c = grid(2, 2, [](double, double) { return 0.0; });
+  LineSet lines = used_lines(c.mesh);
+  for (auto* distances : {&lines.spacing_along_min, &lines.spacing_along_max}) {
+    for (double& d : *distances) d = 1e-3;
+  }
+  const SizeField used = used_distances(lines);
+  const Vec3 place(0.1, 0.05, 0);  // nearest to the corner of the grid
+  const SizeField size = closer_near(c.mesh, used, used, {place}, 0.25);
+  for (Index w = 0; w < c.mesh.wedge_count(); ++w) {
+    const bool is_nearest = c.mesh.positions[c.mesh.wedge_vertex[w]].isZero(1e-12);
+    EXPECT_EQ(size.along[w], (is_nearest ? 0.25 : 1) * used.along[w]);
   }
 }
 
