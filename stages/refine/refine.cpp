@@ -41,9 +41,9 @@ constexpr std::array<double, 3> kPlacesOnEdge = {0.25, 0.5, 0.75};
 constexpr std::int64_t kRoundsInSpace = 3;
 /// Rounds after which vertices are moved to the places that are left, where dividing did not help.
 constexpr std::int64_t kRoundsOfDividing = 6;
-/// Dividing is given up at so many times the fewest places so far, or of these if there were fewer.
-constexpr std::size_t kHopeless = 4;
-constexpr std::size_t kFewPlaces = 100;
+/// Rounds that may leave more places than one before. What is reached at all is reached with fewer
+/// from round to round.
+constexpr std::int64_t kRoundsInVain = 4;
 /// Rounds in which the worst cells are divided up to a count.
 constexpr std::int64_t kRoundsOfCount = 4;
 /// Times that cells are left out because of what dividing them would do.
@@ -304,6 +304,7 @@ std::int64_t refine_to_tolerance(const TriMesh& mesh, Refinement& refinement,
   refinement.put_back(proof.input()->distance, tolerance);
   std::size_t last = std::numeric_limits<std::size_t>::max();  // places before the last division
   std::vector<Excess> fewest;  // where dividing came nearest, of all rounds
+  std::int64_t fewest_round = 0;
   for (std::int64_t round = 0;; ++round) {
     observer.report("dividing cells", double(round) / double(options.rounds + 1));
     const ComparedSurfaces surfaces(proof.input(), refinement.quads());
@@ -313,16 +314,19 @@ std::int64_t refine_to_tolerance(const TriMesh& mesh, Refinement& refinement,
       refinement.finish(proof);
       return round;
     }
-    if (round == 0 || excess.size() <= fewest.size()) fewest = excess;
-    if (round == options.rounds ||
-        excess.size() > kHopeless * std::max(fewest.size(), kFewPlaces)) {
+    if (round == 0 || excess.size() < fewest.size()) {
+      fewest = excess;
+      fewest_round = round;
+    }
+    if (round == options.rounds || round - fewest_round == kRoundsInVain) {
       if (options.partly) return round;
       std::vector<Vec3> places;
       for (const Excess& e : fewest) places.push_back(e.place);
       throw ToleranceError(
-          fmt::format("the result is farther than {:.6g} from the surface, after {} rounds of "
-                      "dividing cells: {}; use a larger tolerance or more --refine-rounds",
-                      wanted, round, describe(std::move(fewest), mesh, tolerance)),
+          fmt::format(
+              "the result is farther than {:.6g} from the surface, after {} rounds of "
+              "dividing cells: {}; use a larger tolerance, closer lines or more --refine-rounds",
+              wanted, round, describe(std::move(fewest), mesh, tolerance)),
           std::move(places));
     }
     if (round >= kRoundsOfDividing && excess.size() >= last) {

@@ -55,6 +55,8 @@ constexpr double kCloserThere = 0.5;
 /// Times that all lines are, where that is not enough, and at which share.
 constexpr int kCloserLines = 2;
 constexpr double kCloser = 0.6;
+/// Vertices of a result within a tolerance, over those of the input, of which the user is told.
+constexpr Index kExcessive = 2;
 /// Share of the distances of lines around faces that cross.
 constexpr double kCloserWhereCrossing = 0.7;
 /// Scale on distances that were those of lines, and have theirs in them. Where a count is wanted
@@ -395,6 +397,17 @@ void trace_to_count(Session& session, const GoalStages& stages, Counted counted,
   session = part_faces(first, faces, again, keep).done;
 }
 
+/// A mesh coarser than the tolerance is taken for the polyhedron it is, edge by edge.
+void warn_of_excess(Session& session) {
+  const Index given = session.get<TriMesh>("mesh").vertex_count();
+  const Index made = session.get<QuadMesh>("refined").mesh.vertex_count();
+  if (made <= kExcessive * given) return;
+  session.say(
+      fmt::format("warning: the result has {} vertices, the input {}: its own faces are coarse "
+                  "against the tolerance; a larger one takes fewer",
+                  made, given));
+}
+
 }  // namespace
 
 std::string meet_count(Session& session, const GoalStages& stages, Counted counted,
@@ -447,6 +460,7 @@ std::string meet_tolerance(Session& session, const GoalStages& stages, const std
   };
   const Index faces = first.done.get<QuadMesh>("refined").mesh.face_count();
   session = part_faces(first, faces, again, keep).done;
+  warn_of_excess(session);
   return "refined";
 }
 

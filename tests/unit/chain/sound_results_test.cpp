@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <string_view>
 
 #include "common/geometry/face_crossings/face_crossings.h"
 #include "common/geometry/poly_topology/face_shape.h"
@@ -135,6 +137,30 @@ TEST(Remesh, LinesAreCloserOnlyWhereDividingDoesNotReachTheTolerance) {
   };
   EXPECT_LT(vertices_below(claws(6, 0.3, 0.08, 0.6, 8000)),
             1.5 * vertices_below(make_sample(SampleKind::sphere, sample)));
+}
+
+class Listener : public StageObserver {
+ public:
+  void report(std::string_view /*phase*/, double /*fraction*/) override {}
+  void say(const std::string& line) override { said += line + '\n'; }
+  std::string said;
+};
+
+// Within a tolerance that its own faces are coarse against a mesh is a polyhedron with many edges.
+TEST(Remesh, SaysWhereAToleranceTakesFarMoreVerticesThanTheInputHas) {
+  const auto said_with = [](std::int64_t faces) {
+    SampleOptions sample;
+    sample.faces = faces;
+    const PolyMesh mesh = make_sample(SampleKind::torus, sample);
+    RemeshOptions options;
+    options.trace.tolerance = percent(0.3);
+    options.measure = false;
+    Listener listener;
+    remesh({mesh, {}, {}, {}}, options, listener);
+    return listener.said;
+  };
+  EXPECT_NE(said_with(500).find("a larger one takes fewer"), std::string::npos);
+  EXPECT_EQ(said_with(5000).find("a larger one takes fewer"), std::string::npos);
 }
 
 }  // namespace

@@ -269,6 +269,28 @@ TEST(Refine, SaysWhereTheToleranceIsNotReached) {
   EXPECT_EQ(refined(bent_strip(0.3), options).mesh.face_count(), 1);
 }
 
+/// A result for one of two plates only: no division of its cells reaches the other one.
+TEST(Refine, GivesUpWhereDividingIsInVain) {
+  Case c = grid(4, 2, [](double, double) { return 0.0; });
+  PolyMesh soup;
+  for (const double z : {0.0, 0.5}) {
+    const Index first = soup.vertex_count();
+    for (const Vec3& p : c.mesh.positions) soup.positions.emplace_back(p + Vec3(0, 0, z));
+    for (const auto& [u, v, w] : c.mesh.faces) {
+      soup.add_face(std::array<Index, 3>{first + u, first + v, first + w});
+    }
+  }
+  c.mesh = support::plain_tri_mesh(soup);
+  try {
+    refined(c, within(0.01));
+    ADD_FAILURE() << "no error";
+  } catch (const ToleranceError& error) {
+    EXPECT_NE(std::string(error.what()).find("after 4 rounds"), std::string::npos) << error.what();
+    EXPECT_FALSE(error.places().empty());
+    for (const Vec3& p : error.places()) EXPECT_NEAR(p.z(), 0.5, 1e-12);
+  }
+}
+
 TEST(Refine, SpendsACountOnTheWorstCells) {
   const Case c =
       grid(64, 8, [](double x, double) { return x < 0.5 ? 0.0 : std::sin(12 * (x - 0.5)) / 10; });
