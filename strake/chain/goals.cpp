@@ -253,19 +253,21 @@ void want_closer(Session& session, const SizeField& wanted, const std::vector<Ve
                   "closer lines", "");
 }
 
-/// The same on the way to a tolerance: distances elsewhere stay.
-void want_closer_there(Session& session, const GoalStages& stages, const std::vector<Vec3>& places,
-                       double factor) {
-  const Option& scale = stages.trace.option("spacing-scale");
-  SizeField wanted = used_distances(session.get<LineSet>("lines"));
+/// The same on the way to a tolerance, where no count scales distances: elsewhere they stay.
+void want_closer_only_there(Session& session, const GoalStages& stages,
+                            const std::vector<Vec3>& places, double factor) {
+  const Option& option = stages.trace.option("spacing-scale");
   if (session.has("size")) {
-    wanted = session.get<SizeField>("size");
+    SizeField wanted = session.get<SizeField>("size");
+    const double scale = std::stod(option.value());
     for (auto* distances : {&wanted.along, &wanted.across}) {
-      for (double& d : *distances) d *= std::stod(scale.value());
+      for (double& d : *distances) d *= scale;
     }
+    want_closer(session, wanted, places, factor);
+  } else {
+    want_closer(session, used_distances(session.get<LineSet>("lines")), places, factor);
   }
-  want_closer(session, wanted, places, factor);
-  scale.parse_into(kScaleOfLines);
+  option.parse_into(kScaleOfLines);
 }
 
 /// Fits the refined result once more.
@@ -301,6 +303,7 @@ std::optional<ToleranceError> refine_in_turn(Session& session, const GoalStages&
 
 /// Traces at the distances that the options ask for, and closer where dividing cells does not reach
 /// the tolerance: around the places that are left, and everywhere where that is not enough.
+/// \param times_everywhere  at most
 /// \return what is within it
 /// \throw ToleranceError where nothing helps
 Attempt trace_within(Session& session, const GoalStages& stages, CrossingPlaces& crossing,
@@ -311,14 +314,14 @@ Attempt trace_within(Session& session, const GoalStages& stages, CrossingPlaces&
     const Session meshed = session;
     const std::optional<ToleranceError> miss = refine_in_turn(session, stages);
     if (!miss) return {meshed, session, crossing.of(session.get<QuadMesh>("refined").mesh)};
-    if (stages.refine.option("refine-rounds").value() == "0") throw *miss;
-    if (trial == kCloserPlaces + times_everywhere) throw *miss;
+    const bool is_once = stages.refine.option("refine-rounds").value() == "0";
+    if (is_once || trial == kCloserPlaces + times_everywhere) throw *miss;
     if (trial < kCloserPlaces) {
       session.say(
           fmt::format("tracing closer lines around {} places that dividing cells does not bring "
                       "within the tolerance",
                       miss->places().size()));
-      want_closer_there(session, stages, miss->places(), kCloserThere);
+      want_closer_only_there(session, stages, miss->places(), kCloserThere);
     } else {
       session.say("dividing cells does not reach the tolerance; tracing closer lines");
       const double closer_scale = kCloser * std::stod(scale.value());
@@ -451,7 +454,7 @@ std::string meet_tolerance(Session& session, const GoalStages& stages, const std
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
   const Attempt first = trace_within(session, stages, crossing, kCloserLines);
   const auto again = [&](Session next, const std::vector<Vec3>& places) {
-    want_closer_there(next, stages, places, kCloserWhereCrossing);
+    want_closer_only_there(next, stages, places, kCloserWhereCrossing);
     return trace_within(next, stages, crossing, 0);
   };
   const auto keep = [&](Attempt& attempt) {
