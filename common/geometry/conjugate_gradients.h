@@ -51,13 +51,13 @@ std::array<double, 2> sum_over(Index n, Term term) {
 
 }  // namespace conjugate_gradients_detail
 
-/// What solving takes besides the system; solves of the same size one after the other may share it,
+/// What solving takes besides the matrix; solves of the same size one after the other may share it,
 /// which spares fetching the memory anew.
 template <class Value>
 struct SolverVectors {
-  std::vector<Value> residual;
-  std::vector<Value> direction;
-  std::vector<Value> product;
+  std::vector<Value> right;  ///< [n] the right side of the system; the residual after solving
+  std::vector<Value> direction = {};
+  std::vector<Value> product = {};
 };
 
 /// Solves a Hermitian, positive definite system A x = right by preconditioned conjugate gradients.
@@ -69,24 +69,25 @@ struct SolverVectors {
 /// \param precondition  (i, value) -> row i of an approximate inverse of A's diagonal times value
 /// \param dot           (a, b) -> real scalar product of two values
 /// \param x             [n] first guess, then the solution
-/// \param vectors       of any content
+/// \param vectors       the right side, the rest of any content
 /// \return number of iterations
 template <class Value, class RowTimes, class Precondition, class Dot>
-Index conjugate_gradients(const std::vector<Value>& right, const SolverOptions& options,
-                          RowTimes row_times, Precondition precondition, Dot dot,
-                          std::vector<Value>& x, SolverVectors<Value>& vectors) {
+Index conjugate_gradients(const SolverOptions& options, RowTimes row_times,
+                          Precondition precondition, Dot dot, std::vector<Value>& x,
+                          SolverVectors<Value>& vectors) {
   using conjugate_gradients_detail::for_blocks;
   using conjugate_gradients_detail::sum_over;
   using Sums = std::array<double, 2>;
-  const auto n = static_cast<Index>(right.size());
-  std::vector<Value>& residual = vectors.residual;
+  const auto n = static_cast<Index>(x.size());
+  std::vector<Value>& residual = vectors.right;
   std::vector<Value>& direction = vectors.direction;
   std::vector<Value>& product = vectors.product;
-  for (auto* vector : {&residual, &direction, &product}) vector->resize(right.size());
+  for (auto* vector : {&direction, &product}) vector->resize(x.size());
 
   const auto [right_norm2, first_norm2] = sum_over(n, [&](Index i) -> Sums {
-    residual[i] = right[i] - row_times(i, x);
-    return {dot(right[i], right[i]), dot(residual[i], residual[i])};
+    const Value right = residual[i];
+    residual[i] = right - row_times(i, x);
+    return {dot(right, right), dot(residual[i], residual[i])};
   });
   const double enough = options.tolerance * options.tolerance * right_norm2;
   if (first_norm2 <= enough) return 0;

@@ -79,8 +79,9 @@ class Coarsening {
   /// Vertices that are not on feature and boundary lines.
   [[nodiscard]] Index vertices_left() const { return left_; }
 
-  /// What is left, as a mesh.
-  [[nodiscard]] TriMesh result() const {
+  /// What is left, as a mesh; nothing can be collapsed afterwards.
+  [[nodiscard]] TriMesh take_result() {
+    quadrics_ = std::vector<PlaneQuadric>();  // room for the mesh; "= {}" would keep the memory
     TriMesh mesh;
     std::vector<Index> new_vertex(parent_.positions.size(), kNone);
     for (Index v = 0; v < parent_.vertex_count(); ++v) {
@@ -351,7 +352,7 @@ CoarsenResult coarsen_mesh(const TriMesh& mesh, const CoarsenOptions& options, O
     if (coarsening.pass() <= kWorthPass * to_go) break;
   }
   observer.report("collapsing vertices", 1);
-  CoarsenResult result{coarsening.result(), {}};
+  CoarsenResult result{coarsening.take_result(), {}};
   result.report.set("coarsen.vertices", std::int64_t{result.mesh.vertex_count()});
   result.report.set("coarsen.faces", std::int64_t{result.mesh.face_count()});
   result.report.set("coarsen.passes", passes);

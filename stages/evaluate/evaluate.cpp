@@ -8,6 +8,7 @@
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_edges.h"
 #include "common/geometry/poly_topology/poly_topology.h"
+#include "common/geometry/topology/topology.h"
 #include "stages/evaluate/alignment.h"
 #include "stages/evaluate/deviation.h"
 #include "stages/evaluate/kept_edges.h"
@@ -17,12 +18,17 @@
 namespace strake {
 namespace {
 
-PolyMesh as_polygons(const TriMesh& mesh) {
-  PolyMesh result;
-  result.positions = mesh.positions;
-  result.corners.reserve(3 * mesh.faces.size());
-  result.offsets.reserve(mesh.faces.size() + 1);
-  for (const auto& face : mesh.faces) result.add_face(face);
+/// Of an oriented manifold, as every TriMesh is one.
+PolyTopology topology_of(const TriMesh& mesh) {
+  const Census counts = census(mesh);
+  PolyTopology result;
+  result.used_vertices = mesh.vertex_count();
+  result.faces = mesh.face_count();
+  result.edges = mesh.vertex_count() + mesh.face_count() - counts.euler_characteristic;
+  result.components = counts.components;
+  result.boundary_loops = counts.boundary_loops;
+  result.euler = counts.euler_characteristic;
+  result.genus = counts.genus;
   return result;
 }
 
@@ -91,7 +97,7 @@ EvaluateResult evaluate_mesh(const TriMesh& reference, const PrincipalField* fie
   const PolyEdges edges = collect_edges(candidate);
   const PolyTopology topology = analyse(candidate, edges);
   require_finite(candidate);
-  report_topology(analyse(as_polygons(reference)), topology, report);
+  report_topology(topology_of(reference), topology, report);
 
   observer.report("shape", 0);
   PolyMesh local = candidate;

@@ -60,9 +60,9 @@ std::vector<Vec3> BlockSystem::solve() const {
   std::transform(diagonal_.begin(), diagonal_.end(), inverse.begin(),
                  [](const Mat3& block) { return block.inverse(); });
   std::vector<Vec3> x(diagonal_.size(), Vec3::Zero());
-  SolverVectors<Vec3> vectors;
+  SolverVectors<Vec3> vectors{.right = right_};
   conjugate_gradients(
-      right_, kSolver,
+      kSolver,
       [this](Index i, const std::vector<Vec3>& y) -> Vec3 {
         Vec3 sum = diagonal_[i] * y[i];
         for (Index at = offsets_[i]; at < offsets_[i + 1]; ++at) {

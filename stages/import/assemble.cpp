@@ -38,6 +38,8 @@ TriMesh assemble(const Soup& soup) {
   TriMesh mesh;
   mesh.faces.reserve(soup.faces.size());
   mesh.source_face.reserve(soup.faces.size());
+  mesh.positions.reserve(soup.positions.size());
+  mesh.source_vertex.reserve(soup.positions.size());
   std::vector<Index> new_index(soup.positions.size(), kNone);
   for (const Index f : breadth_first_order(unordered)) {
     Triangle face = soup.faces[f];

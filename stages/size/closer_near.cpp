@@ -1,6 +1,7 @@
 #include "stages/size/closer_near.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <iterator>
 
@@ -51,6 +52,18 @@ class Neighbourhoods {
 
 SizeField used_distances(const LineSet& lines) {
   return {lines.mesh_id, lines.spacing_along_min, lines.spacing_along_max};
+}
+
+SizeField scaled_like(SizeField size, const SizeField& others) {
+  double sum = 0;
+  for (std::size_t w = 0; w < size.along.size(); ++w) {
+    sum += std::log(others.along[w] / size.along[w]) + std::log(others.across[w] / size.across[w]);
+  }
+  const double scale = std::exp(sum / (2 * static_cast<double>(size.along.size())));
+  for (auto* distances : {&size.along, &size.across}) {
+    for (double& d : *distances) d *= scale;
+  }
+  return size;
 }
 
 SizeField closer_near(const TriMesh& mesh, const SizeField& wanted, const SizeField& used,

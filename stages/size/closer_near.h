@@ -11,6 +11,9 @@ namespace strake {
 /// The distances that lines were traced at.
 SizeField used_distances(const LineSet& lines);
 
+/// Distances in the ratios of `size`, and in the mean like others. \pre both of one mesh, positive
+SizeField scaled_like(SizeField size, const SizeField& others);
+
 /// Wanted distances, but closer than lines were around some places of the surface.
 ///
 /// Beyond [MK04], for where lines at the distances that curvature asks for miss a tip, a pit or a

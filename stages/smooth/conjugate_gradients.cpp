@@ -20,10 +20,10 @@ Complex row_times(const HermitianMatrix& matrix, Index i, const Vector& x) {
 
 }  // namespace
 
-Index solve(const HermitianMatrix& matrix, const Vector& right, const SolverOptions& options,
-            Vector& x, SolverVectors<Complex>& vectors) {
+Index solve(const HermitianMatrix& matrix, const SolverOptions& options, Vector& x,
+            SolverVectors<Complex>& vectors) {
   return conjugate_gradients(
-      right, options, [&matrix](Index i, const Vector& y) { return row_times(matrix, i, y); },
+      options, [&matrix](Index i, const Vector& y) { return row_times(matrix, i, y); },
       [&matrix](Index i, const Complex& value) { return value / matrix.diagonal[i]; },
       [](const Complex& a, const Complex& b) { return a.real() * b.real() + a.imag() * b.imag(); },
       x, vectors);

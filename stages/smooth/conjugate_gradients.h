@@ -18,10 +18,10 @@ struct HermitianMatrix {
 };
 
 /// Solves matrix * x = right by `conjugate_gradients` with the diagonal as preconditioner.
-/// \param x [n] first guess, then the solution
+/// \param x        [n] first guess, then the solution
+/// \param vectors  the right side, the rest of any content
 /// \return number of iterations
-Index solve(const HermitianMatrix& matrix, const std::vector<std::complex<double>>& right,
-            const SolverOptions& options, std::vector<std::complex<double>>& x,
-            SolverVectors<std::complex<double>>& vectors);
+Index solve(const HermitianMatrix& matrix, const SolverOptions& options,
+            std::vector<std::complex<double>>& x, SolverVectors<std::complex<double>>& vectors);
 
 }  // namespace strake

@@ -47,7 +47,6 @@ struct CrossSystem {
 
 /// What the solves share that follow each other.
 struct Workspace {
-  std::vector<Complex> right;
   std::vector<double> holds;
   SolverVectors<Complex> solver;
 };
@@ -111,7 +110,7 @@ CrossSystem cross_system(const TriMesh& mesh, const WedgeGraph& graph, double st
 /// the last solution and the principal direction; not at all where `solution` is that direction.
 Index solve_reweighted(CrossSystem& system, double tolerance, std::vector<Complex>& solution,
                        Workspace& space) {
-  std::vector<Complex>& right = space.right;
+  std::vector<Complex>& right = space.solver.right;
   std::vector<double>& holds = space.holds;
   right.resize(solution.size());
   holds.resize(solution.size());
@@ -131,7 +130,7 @@ Index solve_reweighted(CrossSystem& system, double tolerance, std::vector<Comple
   }
   const double share = right_norm2 > 0 ? std::sqrt(hold_norm2 / right_norm2) : 1;
   const SolverOptions options = {.tolerance = tolerance * std::clamp(share, kLeastShare, 1.0)};
-  return solve(system.matrix, right, options, solution, space.solver);
+  return solve(system.matrix, options, solution, space.solver);
 }
 
 /// [W] the crosses. \param iterations  of all solves, are added to

@@ -155,6 +155,7 @@ SmoothResult smooth_tensors(const TriMesh& mesh, TensorField tensor, const Smoot
   set_confidence(mesh, field);
   double before = 0;
   for (const double c : field.face_confidence) before += c;
+  field.face_confidence = std::vector<double>();  // until the end; "= {}" would keep the memory
 
   const WedgeGraph graph = wedge_graph(mesh);
   if (options.extension == "cross") {

@@ -44,11 +44,11 @@ class LineFlow {
   /// [keys] by how much log s changes.
   [[nodiscard]] std::vector<double> solve() const {
     std::vector<double> change(right_.size(), 0);
-    SolverVectors<double> vectors;
+    SolverVectors<double> vectors{.right = right_};
     SolverOptions options;
     options.tolerance = kAccuracy;
     conjugate_gradients(
-        right_, options,
+        options,
         [&](Index key, const std::vector<double>& x) {
           double sum = diagonal_[key] * x[key];
           for (Index at = bonds_.first(key / 2); at < bonds_.first(key / 2 + 1); ++at) {

@@ -101,12 +101,14 @@ std::string Chain::run(Session& session) const {
     ridge.value *= kRidgeHeight;
     height.parse_into(ridge.to_string());
   }
-  for (const Stage* stage : {&import, &tensor, &smooth}) {
-    session.run(*stage);
-    session.keep(*stage);
-  }
-  // As large as all that is needed from here on.
+  // What was read, and the tensors, are as large as all that is needed afterwards.
+  session.run(import);
+  session.keep(import);
   session.withdraw("input");
+  session.run(tensor);
+  session.keep(tensor);
+  session.run(smooth, tensor.output.name);
+  session.keep(smooth);
   session.withdraw(tensor.output.name);
   return reach_goal(session);
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "common/core/error.h"
@@ -270,6 +271,14 @@ void want_closer_only_there(Session& session, const GoalStages& stages,
   option.parse_into(kScaleOfLines);
 }
 
+/// The same where a count is wanted, which scales all distances: elsewhere they keep their ratios.
+void want_relatively_closer(Session& session, const std::vector<Vec3>& places, double factor) {
+  const SizeField used = used_distances(session.get<LineSet>("lines"));
+  want_closer(session,
+              session.has("size") ? scaled_like(session.get<SizeField>("size"), used) : used,
+              places, factor);
+}
+
 /// Fits the refined result once more.
 void fit_refined(Session& session, const GoalStages& stages) {
   session.provide_as("quads", session.get<QuadMesh>("refined"), "refined");
@@ -383,7 +392,7 @@ void trace_to_count(Session& session, const GoalStages& stages, Counted counted,
   const Attempt first = fit_to_count(session, stages, aim, crossing);
   const double first_miss = aim.miss(count_of(first.done, "fitted", counted));
   const auto again = [&](Session next, const std::vector<Vec3>& places) {
-    want_closer(next, used_distances(next.get<LineSet>("lines")), places, kCloserWhereCrossing);
+    want_relatively_closer(next, places, kCloserWhereCrossing);
     search_scale(next, stages, aim);
     Attempt attempt = fit_to_count(next, stages, aim, crossing);
     const double miss = aim.miss(count_of(attempt.done, "fitted", counted));
@@ -418,7 +427,7 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
                        bool lines_only, double working_ratio) {
   std::optional<Session> coarser = on_coarser_mesh(session, stages, wanted, working_ratio);
   trace_to_count(coarser ? *coarser : session, stages, counted, wanted, feedback_rounds);
-  if (coarser) take_from_coarser_mesh(session, *coarser, stages);
+  if (coarser) take_from_coarser_mesh(session, std::move(*coarser), stages);
   // What a user says of directions and of lines decimation knows nothing of.
   const bool needs_lines = lines_only || only_quads(stages) || session.has("density") ||
                            session.get<PrincipalField>("field").guides.line_count() > 0;

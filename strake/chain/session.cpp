@@ -31,12 +31,15 @@ void Session::note_inputs(const Stage& stage, Provenance& provenance) const {
   }
 }
 
-const Report& Session::run(const Stage& stage) {
+const Report& Session::run(const Stage& stage, const std::string& last_use_of) {
   observer_->begin(stage.name);
   Inputs inputs;
   for (const Port& port : stage.inputs) {
     const auto entry = values_.find(port.name);
-    if (entry != values_.end()) inputs.add(port.name, {entry->second.value, entry->second.origin});
+    if (entry == values_.end()) continue;
+    std::shared_ptr<Value>& value = entry->second.value;
+    inputs.add(port.name,
+               {port.name == last_use_of ? std::move(value) : value, entry->second.origin});
   }
   const auto begin = std::chrono::steady_clock::now();
   StageResult result = run_stage(stage, inputs, *observer_);

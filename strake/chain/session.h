@@ -51,11 +51,16 @@ class Session {
 
   /// Takes back what the port was provided with.
   void withdraw(const std::string& port) { values_.erase(port); }
-  [[nodiscard]] bool has(const std::string& port) const { return values_.count(port) != 0; }
+  [[nodiscard]] bool has(const std::string& port) const {
+    const auto entry = values_.find(port);
+    return entry != values_.end() && entry->second.value != nullptr;
+  }
 
   /// Runs a stage, stores its output in place of an older one, and says its warnings.
+  /// \param last_use_of  a port that holds nothing any more afterwards, so that the stage can use
+  ///                     its memory for other things
   /// \return its report
-  const Report& run(const Stage& stage);
+  const Report& run(const Stage& stage, const std::string& last_use_of = "");
   /// Hands the last output and record of the stage to the keeper, if there is one.
   void keep(const Stage& stage);
   /// A line for the user.
@@ -70,7 +75,7 @@ class Session {
 
  private:
   struct Entry {
-    std::shared_ptr<Value> value;
+    std::shared_ptr<Value> value;  ///< nullptr: it was used up
     std::string origin;
     std::string digest;  ///< of its file; "" where there is none
   };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "common/core/fields.h"
 #include "common/core/poly_mesh.h"
@@ -38,20 +39,22 @@ std::optional<Session> on_coarser_mesh(const Session& session, const GoalStages&
   return coarser;
 }
 
-void take_from_coarser_mesh(Session& session, const Session& coarser, const GoalStages& stages) {
-  Session lifted = coarser;
-  lifted.use_as("coarse-quads", "fitted");
-  lifted.take_from(session, {"mesh", "field"});
-  lifted.run(stages.lift);
-  lifted.keep(stages.lift);
-  lifted.use_as("quads", "lifted");
+void take_from_coarser_mesh(Session& session, Session coarser, const GoalStages& stages) {
+  coarser.use_as("coarse-quads", "fitted");
+  coarser.take_from(session, {"mesh", "field"});
+  session = std::move(coarser);
+  session.run(stages.lift);
+  session.keep(stages.lift);
+  session.use_as("quads", "lifted");
+  for (const char* port : {"coarse", "coarse-field", "coarse-quads", "lines", "size", "refined"}) {
+    session.withdraw(port);
+  }
   const Option& rounds = stages.fit.option("fit-rounds");
   const std::string all_rounds = rounds.value();
   rounds.parse_into(std::to_string(std::min(kLastRounds, std::stoi(all_rounds))));
-  lifted.run(stages.fit);
+  session.run(stages.fit);
   rounds.parse_into(all_rounds);
-  lifted.keep(stages.fit);
-  session = lifted;
+  session.keep(stages.fit);
 }
 
 }  // namespace strake

@@ -17,7 +17,7 @@ std::optional<Session> on_coarser_mesh(const Session& session, const GoalStages&
                                        std::int64_t vertices, double ratio);
 
 /// Takes the port "fitted" of a session on a coarser mesh to one on the input, and fits it there
-/// once more, a few rounds.
-void take_from_coarser_mesh(Session& session, const Session& coarser, const GoalStages& stages);
+/// once more, a few rounds. What else there was on the coarser one is left behind.
+void take_from_coarser_mesh(Session& session, Session coarser, const GoalStages& stages);
 
 }  // namespace strake

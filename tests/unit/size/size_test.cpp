@@ -184,6 +184,16 @@ TEST(CloserNear, MultipliesTheDistancesAroundPlaces) {
   }
 }
 
+TEST(CloserNear, ScaledDistancesKeepTheirRatios) {
+  const SizeField size = {"", {1, 2}, {4, 8}};
+  const SizeField others = {"", {6, 3}, {12, 24}};  // 6, 1.5, 3 and 3 times those: 3 in the mean
+  const SizeField scaled = scaled_like(size, others);
+  for (std::size_t w = 0; w < size.along.size(); ++w) {
+    EXPECT_DOUBLE_EQ(scaled.along[w], 3 * size.along[w]);
+    EXPECT_DOUBLE_EQ(scaled.across[w], 3 * size.across[w]);
+  }
+}
+
 /// Distances are those of vertices: a place amid a face far larger than the reach takes one of
 /// them.
 TEST(CloserNear, TakesTheNearestCornerOfALargeFace) {

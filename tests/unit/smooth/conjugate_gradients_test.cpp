@@ -45,8 +45,8 @@ struct Problem {
     std::vector<Complex> x(right.size());
     SolverOptions options;
     options.tolerance = tolerance;
-    SolverVectors<Complex> vectors;
-    EXPECT_LT(solve(matrix(), right, options, x, vectors), options.max_iterations);
+    SolverVectors<Complex> vectors{.right = right};
+    EXPECT_LT(solve(matrix(), options, x, vectors), options.max_iterations);
     return x;
   }
 
@@ -79,12 +79,13 @@ TEST(ConjugateGradients, StopAtTheTolerance) {
   const Problem problem(20000);
   std::vector<Complex> loose(problem.right.size());
   std::vector<Complex> tight(problem.right.size());
-  SolverVectors<Complex> vectors;
-  const Index few = solve(problem.matrix(), problem.right, {1e-2, 1000}, loose, vectors);
-  const Index many = solve(problem.matrix(), problem.right, {1e-8, 1000}, tight, vectors);
+  SolverVectors<Complex> vectors{.right = problem.right};
+  const Index few = solve(problem.matrix(), {1e-2, 1000}, loose, vectors);
+  vectors.right = problem.right;
+  const Index many = solve(problem.matrix(), {1e-8, 1000}, tight, vectors);
   EXPECT_LT(few, many);
-  EXPECT_EQ(solve(problem.matrix(), problem.right, {1e-2, 1000}, tight, vectors), 0)
-      << "solved already";
+  vectors.right = problem.right;
+  EXPECT_EQ(solve(problem.matrix(), {1e-2, 1000}, tight, vectors), 0) << "solved already";
 }
 
 TEST(ConjugateGradients, GiveTheSameBitsForAnyThreadCount) {
