@@ -1,5 +1,6 @@
 #include "stages/evaluate/deviation.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <Eigen/Geometry>
@@ -18,18 +19,32 @@ constexpr double kOnEdge = 1e-7;      // barycentric; nearer than this to an edg
 constexpr double kSamePlace = 1e-10;  // of the diagonal; distances that differ by less are equal
 constexpr std::int64_t kBatch = 1 << 16;  // between two reports of progress
 
+const Vec3& position_of(const SurfaceSample& sample) { return sample.position; }
+const Vec3& position_of(const Vec3& place) { return place; }
+
 struct OneWay {
   double mean = 0, rms = 0, max = 0;
   double normal_mean = 0, normal_rms = 0, normal_max = 0, facing_away = 0;  // degrees; a share
 };
 
-/// Calls `body(i)` for 0 <= i < n in parallel, with progress; results must go to places of their
-/// own.
-template <class Body>
-void in_batches(std::int64_t n, const char* phase, Observer& observer, const Body& body) {
+/// The nearest points of a surface to n places, in parallel, with progress.
+/// \param place  (i) -> the place; those that follow each other are often near each other
+/// \param use    (i, place, foot); results must go to places of their own
+template <class Place, class Use>
+void find_feet(std::int64_t n, const SurfaceDistance& surface, const char* phase,
+               Observer& observer, const Place& place, const Use& use) {
+  using Range = tbb::blocked_range<std::int64_t>;
   for (std::int64_t begin = 0; begin < n; begin += kBatch) {
     observer.report(phase, static_cast<double>(begin) / static_cast<double>(n));
-    tbb::parallel_for(begin, std::min(n, begin + kBatch), body);
+    tbb::parallel_for(Range(begin, std::min(n, begin + kBatch)), [&](const Range& some) {
+      Index guess = kNone;
+      for (std::int64_t i = some.begin(); i < some.end(); ++i) {
+        const auto& sample = place(i);
+        const ClosestPoint foot = surface.closest_near(position_of(sample), guess);
+        guess = foot.triangle;
+        use(i, sample, foot);
+      }
+    });
   }
 }
 
@@ -65,16 +80,18 @@ OneWay measure(const SurfaceWithVertices& from, const MeasuredSurface& to, doubl
                std::int64_t samples, const char* phase, Observer& observer) {
   std::vector<double> distance(static_cast<std::size_t>(samples));
   std::vector<double> angle(distance.size());
-  in_batches(samples, phase, observer, [&](std::int64_t i) {
-    const SurfaceSample sample = from.surface.sample(i, samples);
-    const ClosestPoint foot = to.distance().closest(sample.position);
-    distance[i] = foot.distance;
-    angle[i] = normal_deviation(sample, to, foot, kSamePlace * diagonal);
-  });
+  find_feet(
+      samples, to.distance(), phase, observer,
+      [&](std::int64_t i) { return from.surface.sample(i, samples); },
+      [&](std::int64_t i, const SurfaceSample& sample, const ClosestPoint& foot) {
+        distance[i] = foot.distance;
+        angle[i] = normal_deviation(sample, to, foot, kSamePlace * diagonal);
+      });
   std::vector<double> at_vertex(from.vertices.size());
-  in_batches(static_cast<std::int64_t>(at_vertex.size()), phase, observer, [&](std::int64_t i) {
-    at_vertex[i] = to.distance().closest(from.vertices[i]).distance;
-  });
+  find_feet(
+      static_cast<std::int64_t>(at_vertex.size()), to.distance(), phase, observer,
+      [&](std::int64_t i) -> const Vec3& { return from.vertices[i]; },
+      [&](std::int64_t i, const Vec3&, const ClosestPoint& foot) { at_vertex[i] = foot.distance; });
 
   OneWay result;
   result.mean = mean(distance);

@@ -28,6 +28,8 @@ constexpr double kBent = kAlong;
 /// Directions mean little where turning a line moves it by less than this off the surface, in root
 /// mean squares of the distance.
 constexpr double kNoticed = 3;
+/// Importance of directions that counts as none.
+constexpr double kUnimportant = 0.1;
 /// Edges steeper than this against the surface have no direction on it.
 constexpr double kLeastTangential = 0.3;
 
@@ -64,6 +66,15 @@ DirectionTerm along_cross(const VertexPlaces& places, const Vec3& arm,
   if (!(x * x + y * y > kLeastTangential * kLeastTangential * way.squaredNorm())) return {};
   return std::abs(x) >= std::abs(y) ? turned(edge, other, y, x, square)
                                     : turned(edge, arm, x, y, square);
+}
+
+/// How much directions matter to a way along the surface at a vertex, from 0 to 1: by how far the
+/// surface leaves the way's chord more in one direction than in the other.
+double importance(const VertexPlaces& places, const PrincipalField& field, Index vertex,
+                  const Vec3& way, double square) {
+  const double sag = places.anisotropy(field, vertex) * way.squaredNorm() / 8;
+  const double unnoticed = kNoticed * std::sqrt(square);
+  return sag + unnoticed > 0 ? sag / (sag + unnoticed) : 1.0;
 }
 
 /// The wish of an edge that leaves a feature or boundary line to do so at a right angle.
@@ -156,15 +167,28 @@ std::vector<std::vector<Index>> FlowLines::neighbours() const {
   return rows;
 }
 
-/// How much directions matter for a line through a vertex, from 0 to 1: by how far the surface
-/// leaves a line between the neighbours more in one direction than in the other.
-double FlowLines::importance(const VertexPlaces& places, const PrincipalField& field,
-                             const Through& line, double square) const {
+std::vector<double> FlowLines::shares_for_lines(const VertexPlaces& places,
+                                                const PrincipalField& field, double square) const {
   const std::vector<Vec3>& p = places.positions();
-  const double sag =
-      places.anisotropy(field, line.vertex) * (p[line.after] - p[line.before]).squaredNorm() / 8;
-  const double unnoticed = kNoticed * std::sqrt(square);
-  return sag + unnoticed > 0 ? sag / (sag + unnoticed) : 1.0;
+  std::vector<double> share(edges_.size(), 1.0);
+  std::vector<double> most(p.size(), 0.0);  // importance of an edge at a vertex of a line
+  const auto ends = [&](const std::array<Index, 2>& edge) {  // on the line, free
+    return places.is_free(edge[0]) ? std::pair{edge[1], edge[0]} : std::pair{edge[0], edge[1]};
+  };
+  const auto is_shared = [&](const std::array<Index, 2>& edge) {
+    return places.is_free(edge[0]) != places.is_free(edge[1]);
+  };
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    if (!is_shared(edges_[e])) continue;
+    const auto [on_line, free] = ends(edges_[e]);
+    share[e] = importance(places, field, free, p[free] - p[on_line], square);
+    most[on_line] = std::max(most[on_line], share[e]);
+  }
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    if (!is_shared(edges_[e])) continue;
+    share[e] = (share[e] + kUnimportant) / (most[ends(edges_[e]).first] + kUnimportant);
+  }
+  return share;
 }
 
 template <class Use>
@@ -182,7 +206,7 @@ void FlowLines::for_terms(const VertexPlaces& places, const PrincipalField* fiel
     term.residual = term.side.dot(off);
     term.weight = kStraight * square;
     if (is_quad_corner && field != nullptr) {
-      freedom[vertex] = 1 - importance(places, *field, line, square);
+      freedom[vertex] = 1 - importance(places, *field, vertex, way, square);
       beside[vertex] = {before, after};
       term.residual -= freedom[vertex] * kBend * way.norm();
       term.weight += freedom[vertex] * kBent * square;
@@ -197,16 +221,28 @@ void FlowLines::for_terms(const VertexPlaces& places, const PrincipalField* fiel
   std::vector<Vec3> arms(p.size());
   tbb::parallel_for(Index{0}, mesh_.vertex_count(),
                     [&](Index v) { arms[v] = places.cross_arm(*field, v); });
-  for (const auto& edge : edges_) {
+  const std::vector<double> shares = shares_for_lines(places, *field, square);
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    const std::array<Index, 2>& edge = edges_[e];
+    const double share = shares[e];
+    const auto use_shared = [&](DirectionTerm term) {
+      const double weight = term.weight;
+      term.weight = share * weight;
+      use(term);
+      if (share == 1) return;
+      term.weight = (1 - share) * weight;
+      term.factors[places.is_free(edge[0]) ? 1 : 0] = 0;  // moves the free end alone
+      use(term);
+    };
     double bound = 1;
     for (int i = 0; i < 2; ++i) {
       if (std::ranges::count(beside[edge[i]], edge[1 - i]) > 0) bound *= 1 - freedom[edge[i]];
     }
     for (const Index v : edge) {
       if (places.is_free(v)) {
-        use(along_cross(places, arms[v], edge, v, bound * square / 2));
+        use_shared(along_cross(places, arms[v], edge, v, bound * square / 2));
       } else if (places.is_on_line(v)) {
-        use(across_line(places, places.line_tangent(v), edge, square / 2));
+        use_shared(across_line(places, places.line_tangent(v), edge, square / 2));
       }
     }
   }

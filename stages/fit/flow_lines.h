@@ -13,8 +13,8 @@ namespace strake::fitting {
 
 /// The lines that the edges of a result form, and where they want to go: straight on through every
 /// vertex where they can be followed, in even steps, along the arms of the cross field, and at a
-/// right angle off feature and boundary lines. A T-joint that is a corner of a quad bends out of it
-/// where directions mean little.
+/// right angle off feature and boundary lines. Where directions mean little a T-joint that is a
+/// corner of a quad bends out of it, and edges hardly move the vertices of those lines.
 class FlowLines {
  public:
   explicit FlowLines(const PolyMesh& mesh);
@@ -50,8 +50,13 @@ class FlowLines {
 
   [[nodiscard]] std::vector<Index> corners_around(const std::vector<Index>& twin,
                                                   Index first) const;
-  [[nodiscard]] double importance(const VertexPlaces& places, const PrincipalField& field,
-                                  const Through& line, double square) const;
+  /// [edges] the part of an edge's wishes that moves its end on a feature or boundary line, where
+  /// the other end is free; 1 elsewhere. Directions count there as much as they matter beside those
+  /// of the line's other edges: else the radii of a flat disk would crowd the lines of the wall
+  /// around it.
+  [[nodiscard]] std::vector<double> shares_for_lines(const VertexPlaces& places,
+                                                     const PrincipalField& field,
+                                                     double square) const;
   void follow_lines(Index vertex, const std::vector<Index>& around);
   /// Calls use(term) for every wish.
   template <class Use>

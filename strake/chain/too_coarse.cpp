@@ -28,8 +28,11 @@ constexpr double kVeryMuchLess = 0.25;
 /// Times that the count is corrected where faces are counted, and error that is small enough.
 constexpr int kMostCorrections = 3;
 constexpr double kCountAccuracy = 0.02;
-/// Samples of a result and of the surface, about; large cells hide much between few.
+/// Samples of a result and of the surface, about; large cells hide much between few. The first look
+/// takes few: what has less than this share of a suspect distance with those is not suspect.
 constexpr double kSamples = 200000;
+constexpr double kFirstSamples = 40000;
+constexpr double kFarFromSuspect = 0.5;
 
 struct Goal {
   Counted counted;
@@ -55,20 +58,21 @@ double reached(const Session& session, const char* port, const Goal& goal) {
          static_cast<double>(goal.wanted);
 }
 
-CellSampling sampling_of(const PolyMesh& result) {
-  const double root = std::sqrt(kSamples / result.face_count());
+CellSampling sampling_of(const PolyMesh& result, double samples) {
+  const double root = std::sqrt(samples / result.face_count());
   return {.rows = static_cast<int>(std::clamp(root, 3.0, 20.0)),
           .input_step = 1 / std::clamp(root, 3.0, 20.0)};
 }
 
-Faults faults_of(const Session& session, const Goal& goal) {
+Faults faults_of(const Session& session, const Goal& goal, double samples = kSamples) {
   const auto& mesh = session.get<TriMesh>("mesh");
   const auto& result = session.get<QuadMesh>("fitted");
   const double share = reached(session, "fitted", goal);
   const double cell = std::sqrt(area(mesh) / result.mesh.vertex_count() * share);
   const auto crossing = static_cast<double>(CrossingPlaces(mesh).of(result.mesh).size());
-  return {measure_cells(ComparedSurfaces(mesh, result), sampling_of(result.mesh)).rms / cell,
-          crossing / result.mesh.face_count(), std::abs(share - 1)};
+  return {
+      measure_cells(ComparedSurfaces(mesh, result), sampling_of(result.mesh, samples)).rms / cell,
+      crossing / result.mesh.face_count(), std::abs(share - 1)};
 }
 
 bool is_too_coarse(const Faults& faults) {
@@ -105,6 +109,8 @@ void decimate_to_count(Session& session, const GoalStages& stages, const Goal& g
 void decimate_if_too_coarse(Session& session, const GoalStages& stages, Counted counted,
                             std::int64_t wanted) {
   const Goal goal{counted, wanted};
+  const Faults first = faults_of(session, goal, kFirstSamples);
+  if (first.distance < kFarFromSuspect * kSuspect && !is_too_coarse(first)) return;
   const Faults faults = faults_of(session, goal);
   if (!is_too_coarse(faults)) return;
   session.say(fmt::format("lines are coarse for this shape at {} {}; decimating to compare", wanted,

@@ -488,6 +488,39 @@ TEST_P(FitOfSamples, NeverIncreasesTheDistanceNorSpoilsFaces) {
   EXPECT_LE(crossings(result.mesh), crossings(quads_.mesh));
 }
 
+/// The root mean square distance of chords of a circle, over that of as many equal ones.
+double unevenness(std::vector<double> angles) {
+  std::sort(angles.begin(), angles.end());
+  double sum = 0;
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    const bool is_last = i + 1 == angles.size();
+    sum += std::pow(is_last ? angles[0] + 2 * M_PI - angles[i] : angles[i + 1] - angles[i], 5);
+  }
+  const double mean = 2 * M_PI / static_cast<double>(angles.size());
+  return std::sqrt(sum / (2 * M_PI)) / (mean * mean);
+}
+
+// Directions of a flat disk mean nothing; the lines of the wall around it, which end at the same
+// vertices, do, and crowding them costs distance.
+TEST(Fit, AFlatDiskDoesNotCrowdTheLinesAroundIt) {
+  SampleOptions sample;
+  sample.faces = 20000;
+  const support::Prepared surface = support::prepare(make_sample(SampleKind::cylinder, sample));
+  TraceOptions trace;
+  trace.vertices = 500;
+  const QuadMesh result =
+      fitted_with_field(surface, support::mesh(surface, support::trace(surface, trace)));
+  for (const double end : {-kCylinderHalfHeight, kCylinderHalfHeight}) {
+    std::vector<double> angles;
+    for (const Vec3& p : result.mesh.positions) {
+      if (std::abs(p.z() - end) > 1e-3 || p.head<2>().norm() < 0.99) continue;
+      angles.push_back(std::atan2(p.y(), p.x()));
+    }
+    ASSERT_GT(angles.size(), 20u);
+    EXPECT_LT(unevenness(angles), 1.2);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Samples, FitOfSamples,
                          testing::Values(SampleKind::plane, SampleKind::torus, SampleKind::cylinder,
                                          SampleKind::part));
