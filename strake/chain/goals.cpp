@@ -80,6 +80,8 @@ struct LineAim {
 };
 
 void trace_and_mesh(Session& session, const GoalStages& stages) {
+  // Earlier results make room for those that take their place.
+  for (const char* port : {"lines", "quads", "fitted", "refined"}) session.withdraw(port);
   session.run(stages.trace);
   session.run(stages.mesh);
 }
@@ -210,7 +212,7 @@ void search_scale(Session& session, const GoalStages& stages, const LineAim& aim
     Session session;
     CountSearch::Trial trial;
   };
-  Found best{session, {}};
+  std::optional<Found> best;
   std::optional<Found> below;
   while (const std::optional<double> scale = search.next()) {
     option.parse_into(fmt::format("{}", *scale));
@@ -229,7 +231,7 @@ void search_scale(Session& session, const GoalStages& stages, const LineAim& aim
       below = {session, {*scale, count}};
   }
   const bool is_missed = search.error(search.best().count) > kCountTolerance;
-  const Found& chosen = is_missed && below && goes_by_errors(session, stages) ? *below : best;
+  const Found& chosen = is_missed && below && goes_by_errors(session, stages) ? *below : *best;
   session = chosen.session;
   option.parse_into(fmt::format("{}", chosen.trial.scale));
 }
