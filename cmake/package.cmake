@@ -5,7 +5,7 @@
 set(STRAKE_EXPORTED
     core topology poly_topology face_crossings surface_distance geometry patch_fill plane cell_error samples
     atomic_file meshfile stage_values count_search chain)
-foreach(stage import tensor smooth coarsen restrict trace mesh lift decimate fit size refine evaluate)
+foreach(stage import tensor smooth coarsen prolong trace mesh lift decimate fit size refine evaluate)
   list(APPEND STRAKE_EXPORTED ${stage} ${stage}_stage)
 endforeach()
 
@@ -27,7 +27,7 @@ foreach(folder common/core common/geometry)
   install(DIRECTORY ${folder}/ DESTINATION ${STRAKE_INSTALL_HEADERS}/${folder} COMPONENT development
           FILES_MATCHING PATTERN "*.h")
 endforeach()
-foreach(stage import tensor smooth coarsen restrict trace mesh lift decimate fit size refine evaluate)
+foreach(stage import tensor smooth coarsen prolong trace mesh lift decimate fit size refine evaluate)
   install(FILES stages/${stage}/${stage}.h DESTINATION ${STRAKE_INSTALL_HEADERS}/stages/${stage}
           COMPONENT development)
 endforeach()

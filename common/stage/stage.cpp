@@ -15,7 +15,7 @@ const Option& Stage::option(const std::string& option_name) const {
 StageResult run_stage(const Stage& stage, Inputs& inputs, Observer& observer) {
   const Port* mesh_port = nullptr;
   for (const Port& port : stage.inputs) {
-    if (port.kind == PortKind::mesh && !port.of_parent) mesh_port = &port;
+    if (port.kind == PortKind::mesh && !port.of_parent && inputs.has(port.name)) mesh_port = &port;
   }
   for (const Port& port : stage.inputs) {
     if (mesh_port == nullptr || &port == mesh_port || !inputs.has(port.name)) continue;

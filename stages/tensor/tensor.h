@@ -25,9 +25,10 @@ struct TensorResult {
 ///
 /// Paper: [MK04] section 2 after Cohen-Steiner and Morvan 2003: T = 1/|B| sum of beta |e in B| e
 /// e^T. The ball is mesh-connected and does not cross feature edges; |B| is the true area inside.
+/// \param coarse  nullptr, or a coarser mesh of `mesh`: its wedges alone get tensors, the same ones
 /// \return tensor [W], 1/length, positive where convex
 /// Cost O(W * faces per ball). Deterministic for any thread count.
-TensorResult estimate_tensors(const TriMesh& mesh, const TensorOptions& options,
-                              Observer& observer);
+TensorResult estimate_tensors(const TriMesh& mesh, const TensorOptions& options, Observer& observer,
+                              const TriMesh* coarse = nullptr);
 
 }  // namespace strake

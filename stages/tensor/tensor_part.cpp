@@ -1,7 +1,9 @@
 #include "stages/tensor/tensor_part.h"
 
+#include <numeric>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "common/core/error.h"
 #include "stages/tensor/part_mesh.h"
@@ -20,7 +22,9 @@ TensorPartResult estimate_tensor_part(const MeshBlocks& blocks, const TensorPart
   const auto number = static_cast<Index>(options.part);
   PartMesh part = read_part(blocks, parts, number - 1, kLargestGrowth * rule.radius, observer);
   const auto count = static_cast<Index>(part.wedge.size());
-  WedgeTensors tensors = estimate_wedge_tensors(part.mesh, count, rule, observer);
+  std::vector<Index> own(part.wedge.size());  // come first
+  std::iota(own.begin(), own.end(), Index{0});
+  WedgeTensors tensors = estimate_wedge_tensors(part.mesh, own, rule, observer);
 
   TensorPartResult result;
   result.part.mesh_id = blocks.header().id;

@@ -46,8 +46,8 @@ BallRule ball_rule(const TensorOptions& options, double diagonal, Index faces) {
   return {std::sqrt(std::min(1.0, share)) * kDefaultRadius.resolve(diagonal), kMostFacesOfBall};
 }
 
-WedgeTensors estimate_wedge_tensors(const TriMesh& mesh, Index count, const BallRule& rule,
-                                    Observer& observer) {
+WedgeTensors estimate_wedge_tensors(const TriMesh& mesh, const std::vector<Index>& wedges,
+                                    const BallRule& rule, Observer& observer) {
   const FaceNormals face_normals(mesh);
   const std::vector<Vec3> normals = face_normals.all();
   const FaceCycles cycles(mesh, normals);
@@ -56,10 +56,14 @@ WedgeTensors estimate_wedge_tensors(const TriMesh& mesh, Index count, const Ball
   std::vector<Index> wedge_corner(mesh.wedge_count(), kNone);
   for (Index h = mesh.halfedge_count() - 1; h >= 0; --h) wedge_corner[mesh.wedge_of(h)] = h;
 
+  const auto count = static_cast<Index>(wedges.size());
   WedgeTensors result;
-  result.normal = wedge_normals(mesh, face_normals);
-  result.normal.resize(count);
-  result.tensor.resize(count);
+  result.tensor.resize(wedges.size());
+  {
+    const std::vector<Vec3> all = wedge_normals(mesh, face_normals);
+    result.normal.reserve(wedges.size());
+    for (const Index w : wedges) result.normal.push_back(all[w]);
+  }
 
   tbb::enumerable_thread_specific<BallWalker> walkers([&] { return BallWalker(cycles); });
   std::atomic<Index> grown{0};
@@ -71,12 +75,13 @@ WedgeTensors estimate_wedge_tensors(const TriMesh& mesh, Index count, const Ball
         static_cast<Index>(std::int64_t{blocks} * (part + 1) / reports) * kBlock, count);
     tbb::parallel_for(tbb::blocked_range<Index>(first, last, 32), [&](const auto& range) {
       BallWalker& walker = walkers.local();
-      for (Index w = range.begin(); w != range.end(); ++w) {
+      for (Index i = range.begin(); i != range.end(); ++i) {
+        const Index w = wedges[i];
         const double one_ring = 1.5 * edge_length[w];
         const double r = std::clamp(one_ring, rule.radius, kLargestGrowth * rule.radius);
         if (r > rule.radius) grown.fetch_add(1, std::memory_order_relaxed);
-        result.tensor[w] =
-            walker.tensor(wedge_corner[w], result.normal[w], {r, one_ring, rule.most_faces});
+        result.tensor[i] =
+            walker.tensor(wedge_corner[w], result.normal[i], {r, one_ring, rule.most_faces});
       }
     });
     observer.report("estimating curvature tensors", double(part + 1) / reports);

@@ -30,19 +30,19 @@ struct BallRule {
 BallRule ball_rule(const TensorOptions& options, double diagonal, Index faces);
 
 struct WedgeTensors {
-  std::vector<std::array<double, 6>> tensor;  ///< [count] as TensorField::tensor
-  std::vector<Vec3> normal;                   ///< [count] as TensorField::normal
+  std::vector<std::array<double, 6>> tensor;  ///< [wedges] as TensorField::tensor
+  std::vector<Vec3> normal;                   ///< [wedges] as TensorField::normal
   Index grown = 0;                            ///< balls that grew beyond the wanted radius
   Index shrunk = 0;                           ///< balls that shrank to hold fewer faces
 };
 
-/// Estimates the tensors of the wedges 0 ... count - 1 of a mesh.
+/// Estimates the tensors of some wedges of a mesh, in their order.
 ///
 /// Of a wedge at p it reads: all faces of that wedge, the faces within kLargestGrowth * radius of
 /// p, and where one of these is a sliver, the faces from which `face_normals` gives it a normal.
 /// Sums run in the order of faces and corners, so a mesh that has these faces in the same order
 /// gives the same bits.
-WedgeTensors estimate_wedge_tensors(const TriMesh& mesh, Index count, const BallRule& rule,
-                                    Observer& observer);
+WedgeTensors estimate_wedge_tensors(const TriMesh& mesh, const std::vector<Index>& wedges,
+                                    const BallRule& rule, Observer& observer);
 
 }  // namespace strake

@@ -8,8 +8,8 @@
 #include "stages/import/stage.h"
 #include "stages/lift/stage.h"
 #include "stages/mesh/stage.h"
+#include "stages/prolong/stage.h"
 #include "stages/refine/stage.h"
-#include "stages/restrict/stage.h"
 #include "stages/size/stage.h"
 #include "stages/smooth/stage.h"
 #include "stages/tensor/stage.h"
@@ -26,13 +26,13 @@ constexpr double kRidgeHeight = 2;
 
 Chain::Chain()
     : import(import_stage()),
+      coarsen(coarsen_stage()),
       tensor(tensor_stage()),
       smooth(smooth_stage()),
-      coarsen(coarsen_stage()),
-      restrict(restrict_stage()),
       trace(trace_stage()),
       mesh(mesh_stage()),
       lift(lift_stage()),
+      prolong(prolong_stage()),
       fit(fit_stage()),
       size(size_stage()),
       refine(refine_stage()),
@@ -64,8 +64,8 @@ OptionList Chain::declare(std::optional<std::int64_t>& rounds, bool& lines_only,
 }
 
 std::vector<const Stage*> Chain::stages() const {
-  return {&import, &tensor, &smooth, &coarsen, & restrict, &trace,   &mesh,
-          &lift,   &fit,    &size,   &refine,  &decimate,  &evaluate};
+  return {&import,  &coarsen, &tensor, &smooth, &trace,    &mesh,    &lift,
+          &prolong, &fit,     &size,   &refine, &decimate, &evaluate};
 }
 
 void Chain::check_goals() const {
@@ -79,7 +79,8 @@ void Chain::check_goals() const {
 }
 
 std::string Chain::reach_goal(Session& session) const {
-  const GoalStages goal_stages{coarsen, restrict, trace, mesh, lift, fit, size, refine, decimate};
+  const GoalStages goal_stages{coarsen, tensor, smooth, trace,  mesh,    lift,
+                               prolong, fit,    size,   refine, decimate};
   for (const Counted counted : {Counted::vertices, Counted::faces}) {
     const char* name = counted == Counted::vertices ? "vertices" : "faces";
     const std::string wanted = trace.option(name).value();
@@ -101,15 +102,9 @@ std::string Chain::run(Session& session) const {
     ridge.value *= kRidgeHeight;
     height.parse_into(ridge.to_string());
   }
-  // What was read, and the tensors, are as large as all that is needed afterwards.
   session.run(import);
   session.keep(import);
-  session.withdraw("input");
-  session.run(tensor);
-  session.keep(tensor);
-  session.run(smooth, tensor.output.name);
-  session.keep(smooth);
-  session.withdraw(tensor.output.name);
+  session.withdraw("input");  // as large as all that is needed afterwards
   return reach_goal(session);
 }
 

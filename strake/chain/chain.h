@@ -15,13 +15,13 @@ struct Chain {
   Chain();
 
   Stage import;
+  Stage coarsen;
   Stage tensor;
   Stage smooth;
-  Stage coarsen;
-  Stage restrict;
   Stage trace;
   Stage mesh;
   Stage lift;
+  Stage prolong;
   Stage fit;
   Stage size;
   Stage refine;
@@ -40,7 +40,7 @@ struct Chain {
   [[nodiscard]] std::vector<const Stage*> stages() const;
   /// \throw UsageError where more than one goal is given
   void check_goals() const;
-  /// Runs all stages but the last, those from tracing on as often as the goal takes. Changes option
+  /// Runs all stages but the last that the goal takes, as often as it takes them. Changes option
   /// values on the way. \pre the session was provided with "input" and what else is known
   /// \return the port of the result
   std::string run(Session& session) const;

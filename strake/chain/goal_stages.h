@@ -4,13 +4,15 @@
 
 namespace strake {
 
-/// The stages that are run again and again until a goal is met. Copies share option values.
+/// The stages between the mesh and a result that meets a goal. Copies share option values.
 struct GoalStages {
   Stage coarsen;
-  Stage restrict;
+  Stage tensor;
+  Stage smooth;
   Stage trace;
   Stage mesh;
   Stage lift;
+  Stage prolong;
   Stage fit;
   Stage size;
   Stage refine;

@@ -428,11 +428,12 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
                        std::int64_t wanted, std::optional<std::int64_t> feedback_rounds,
                        bool lines_only, double working_ratio) {
   std::optional<Session> coarser = on_coarser_mesh(session, stages, wanted, working_ratio);
+  if (!coarser) estimate_field(session, stages);
   trace_to_count(coarser ? *coarser : session, stages, counted, wanted, feedback_rounds);
   if (coarser) take_from_coarser_mesh(session, std::move(*coarser), stages);
   // What a user says of directions and of lines decimation knows nothing of.
-  const bool needs_lines = lines_only || only_quads(stages) || session.has("density") ||
-                           session.get<PrincipalField>("field").guides.line_count() > 0;
+  const bool needs_lines =
+      lines_only || only_quads(stages) || session.has("density") || session.has("guides");
   if (!needs_lines) decimate_if_too_coarse(session, stages, counted, wanted);
   const std::int64_t reached = count_of(session, "fitted", counted);
   const double miss = static_cast<double>(std::abs(reached - wanted)) / static_cast<double>(wanted);
@@ -446,6 +447,7 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
 }
 
 std::string follow_spacing(Session& session, const GoalStages& stages) {
+  estimate_field(session, stages);
   trace_mesh_and_fit(session, stages);
   return "fitted";
 }
@@ -459,6 +461,7 @@ std::string meet_tolerance(Session& session, const GoalStages& stages, const std
         "lines, and may be exceeded");
     return follow_spacing(session, stages);
   }
+  estimate_field(session, stages);
   for (std::int64_t i = 0; i < feedback_rounds.value_or(kFeedbackRounds); ++i) {
     shrink_to_tolerance(session, stages, tolerance);
   }

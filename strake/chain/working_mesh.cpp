@@ -23,29 +23,37 @@ std::optional<Session> on_coarser_mesh(const Session& session, const GoalStages&
                                        std::int64_t vertices, double ratio) {
   const Index own = session.get<TriMesh>("mesh").vertex_count();
   const double wanted = ratio * static_cast<double>(vertices);
-  if (!(wanted > 0) || own <= kMuchFiner * wanted ||
-      session.get<PrincipalField>("field").guides.line_count() > 0) {
-    return std::nullopt;
-  }
+  if (!(wanted > 0) || own <= kMuchFiner * wanted || session.has("guides")) return std::nullopt;
   Session coarser = session;
   stages.coarsen.option("coarse-vertices").parse_into(std::to_string(std::llround(wanted)));
   coarser.run(stages.coarsen);
   if (own < kMuchFiner * coarser.get<TriMesh>("coarse").vertex_count()) return std::nullopt;
   coarser.keep(stages.coarsen);
+  Stage tensor = stages.tensor;
+  tensor.output.name = "coarse-tensor";
+  coarser.run(tensor);
+  coarser.keep(tensor);
   coarser.use_as("mesh", "coarse");
-  coarser.run(stages.restrict);
-  coarser.keep(stages.restrict);
+  coarser.use_as("tensor", "coarse-tensor");
+  coarser.withdraw("coarse-tensor");
+  Stage smooth = stages.smooth;
+  smooth.output.name = "coarse-field";
+  coarser.run(smooth, "tensor");
+  coarser.keep(smooth);
+  coarser.withdraw("tensor");
   coarser.use_as("field", "coarse-field");
   return coarser;
 }
 
 void take_from_coarser_mesh(Session& session, Session coarser, const GoalStages& stages) {
   coarser.use_as("coarse-quads", "fitted");
-  coarser.take_from(session, {"mesh", "field"});
+  coarser.take_from(session, {"mesh"});
   session = std::move(coarser);
   session.run(stages.lift);
   session.keep(stages.lift);
   session.use_as("quads", "lifted");
+  session.run(stages.prolong);
+  session.keep(stages.prolong);
   for (const char* port : {"coarse", "coarse-field", "coarse-quads", "lines", "size", "refined"}) {
     session.withdraw(port);
   }
@@ -55,6 +63,14 @@ void take_from_coarser_mesh(Session& session, Session coarser, const GoalStages&
   session.run(stages.fit);
   rounds.parse_into(all_rounds);
   session.keep(stages.fit);
+}
+
+void estimate_field(Session& session, const GoalStages& stages) {
+  session.run(stages.tensor);
+  session.keep(stages.tensor);
+  session.run(stages.smooth, stages.tensor.output.name);
+  session.keep(stages.smooth);
+  session.withdraw(stages.tensor.output.name);  // as large as all that is needed afterwards
 }
 
 }  // namespace strake

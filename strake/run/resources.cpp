@@ -52,7 +52,7 @@ Resources default_resources(std::string_view program) {
   if (program == "tensor") return needs(500, 200);
   if (program == "smooth") return needs(1200, 100);
   if (program == "coarsen") return needs(700, 20);
-  if (program == "restrict") return needs(400, 10);
+  if (program == "prolong") return needs(400, 10);
   if (program == "lift") return needs(500, 20);
   if (program == "trace") return needs(1200, 400);
   if (program == "mesh") return needs(1500, 100);

@@ -34,6 +34,15 @@ Rule usual_rule(const std::string& name, const std::string& program, const Place
   return rule;
 }
 
+/// A part of a mesh is estimated by itself, and knows nothing of a coarser mesh.
+void check_parts(const Rule& rule) {
+  if (rule.parts == 1 || rule.inputs.count("coarse") == 0) return;
+  rule.place.fail(
+      fmt::format("stage '{}' cannot work in parts at the vertices of a coarser mesh; leave out "
+                  "'parts', or write 'inputs: {{coarse: ~}}'",
+                  rule.name));
+}
+
 const Rule* maker_of(const std::vector<Rule>& rules, const std::string& artifact) {
   const auto found = std::find_if(rules.begin(), rules.end(),
                                   [&](const Rule& rule) { return rule.output == artifact; });
@@ -168,6 +177,7 @@ void check_wires(std::vector<Rule>& rules) {
                                     rule.name, source, port.name));
       }
     }
+    check_parts(rule);
   }
 }
 
@@ -203,7 +213,7 @@ std::vector<Rule> in_order(std::vector<Rule> rules) {
 std::vector<Rule> standard_rules(const Place& place) {
   std::vector<Rule> rules;
   // Without rounds of tracing, which a file must write out, and what needs a goal.
-  const std::set<std::string> others = {"sample", "export", "coarsen", "restrict",
+  const std::set<std::string> others = {"sample", "export", "coarsen", "prolong",
                                         "lift",   "size",   "refine",  "decimate"};
   for (const std::string& name : stage_names()) {
     if (others.count(name) == 0) rules.push_back(usual_rule(name, name, place));

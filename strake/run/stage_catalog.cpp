@@ -12,8 +12,8 @@
 #include "stages/import/stage.h"
 #include "stages/lift/stage.h"
 #include "stages/mesh/stage.h"
+#include "stages/prolong/stage.h"
 #include "stages/refine/stage.h"
-#include "stages/restrict/stage.h"
 #include "stages/sample/stage.h"
 #include "stages/size/stage.h"
 #include "stages/smooth/stage.h"
@@ -32,7 +32,7 @@ constexpr const char* kTensorPart = "tensor-part";
 const std::vector<std::pair<std::string, Maker>>& catalog() {
   static const std::vector<std::pair<std::string, Maker>> kCatalog = {
       {"sample", sample_stage},     {"import", import_stage},     {"tensor", tensor_stage},
-      {"smooth", smooth_stage},     {"coarsen", coarsen_stage},   {"restrict", restrict_stage},
+      {"smooth", smooth_stage},     {"coarsen", coarsen_stage},   {"prolong", prolong_stage},
       {"trace", trace_stage},       {"mesh", mesh_stage},         {"lift", lift_stage},
       {"fit", fit_stage},           {"refine", refine_stage},     {"size", size_stage},
       {"decimate", decimate_stage}, {"evaluate", evaluate_stage}, {"export", export_stage},

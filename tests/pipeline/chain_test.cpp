@@ -57,8 +57,11 @@ TEST_F(Chain, FrontEndKeepsWhatItWorksOnAsTheProgramsMakeIt) {
   must("strake sample torus -o torus.ply --faces 20000");
   must("strake remesh torus.ply -o torus.obj --vertices 200 --keep kept -q");
   must("strake-coarsen kept/mesh.hdf -o coarse.hdf --coarse-vertices 2000 -q");
-  must("strake-restrict coarse.hdf kept/field.hdf -o coarse-field.hdf -q");
-  for (const std::string name : {"coarse.hdf", "coarse-field.hdf"}) {
+  must("strake-tensor kept/mesh.hdf --coarse coarse.hdf -o coarse-tensor.hdf -q");
+  must("strake-smooth coarse.hdf coarse-tensor.hdf -o coarse-field.hdf -q");
+  must("strake-prolong kept/mesh.hdf coarse.hdf coarse-field.hdf -o field.hdf -q");
+  for (const std::string name :
+       {"coarse.hdf", "coarse-tensor.hdf", "coarse-field.hdf", "field.hdf"}) {
     EXPECT_EQ(bytes(name), bytes("kept/" + name)) << name;
   }
   must("strake-trace coarse.hdf coarse-field.hdf -o lines.hdf --vertices 200 -q");
@@ -70,6 +73,8 @@ TEST_F(Chain, FrontEndKeepsWhatItWorksOnAsTheProgramsMakeIt) {
       "strake-render kept -o lines.png --size 90x90 --surface input --colour plain --layers "
       "minimum");
   must_fail(4, "strake-lift kept/mesh.hdf kept/mesh.hdf coarse-quads.hdf -o wrong.hdf -q",
+            "no coarser mesh of that of");
+  must_fail(4, "strake-tensor kept/mesh.hdf --coarse kept/mesh.hdf -o wrong.hdf -q",
             "no coarser mesh of that of");
   must_fail(4, "strake-trace kept/mesh.hdf coarse-field.hdf -o wrong.hdf -q", "another mesh");
 }

@@ -163,6 +163,10 @@ const Fault kFaults[] = {
     {"FractionOfAThread",
      "version: 1\nmodels: [a.obj]\nstages: {import: {resources: {threads: 1.5}}}\n",
      "3:40: ", "whole number"},
+    {"PartsBesideACoarserMesh",
+     "version: 1\nmodels: [a.obj]\nstages: {import: {}, coarsen: {}, "
+     "tensor: {resources: {parts: 2}}}\n",
+     "3:35: ", "vertices of a coarser mesh"},
     {"PartsOfAnImport", "version: 1\nmodels: [a.obj]\nstages: {import: {resources: {parts: 2}}}\n",
      "3:38: ", "cannot work in parts"},
     // Outputs.

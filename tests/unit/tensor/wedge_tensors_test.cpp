@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <numeric>
+#include <vector>
 
 #include "common/geometry/samples/samples.h"
 #include "stages/tensor/tensor.h"
@@ -28,9 +30,26 @@ TEST(WedgeTensors, DoNotSeeWhatFoldsOver) {
   const Index wedge = mesh.wedge_of(0);
   for (const double radius : {0.3, 0.6, 0.9, 1.2, 5.0}) {
     SilentObserver observer;
-    const WedgeTensors tensors =
-        estimate_wedge_tensors(mesh, mesh.wedge_count(), {radius}, observer);
-    for (const auto entry : tensors.tensor[wedge]) EXPECT_NEAR(entry, 0, 1e-6) << radius;
+    const WedgeTensors tensors = estimate_wedge_tensors(mesh, {wedge}, {radius}, observer);
+    for (const auto entry : tensors.tensor.front()) EXPECT_NEAR(entry, 0, 1e-6) << radius;
+  }
+}
+
+TEST(EstimateTensors, OfACoarserMeshAreThoseOfTheMeshThere) {
+  SampleOptions options;
+  options.faces = 9000;
+  const TriMesh mesh = support::plain_tri_mesh(make_sample(SampleKind::torus, options));
+  TriMesh coarse;
+  coarse.id = "coarse";
+  for (Index w = 5; w < mesh.wedge_count(); w += 7) coarse.parent_wedge.push_back(w);
+  SilentObserver observer;
+  const TensorField all = estimate_tensors(mesh, {}, observer).field;
+  const TensorField some = estimate_tensors(mesh, {}, observer, &coarse).field;
+  EXPECT_EQ(some.mesh_id, coarse.id);
+  ASSERT_EQ(some.tensor.size(), coarse.parent_wedge.size());
+  for (std::size_t i = 0; i < some.tensor.size(); ++i) {
+    EXPECT_EQ(some.tensor[i], all.tensor[coarse.parent_wedge[i]]);
+    EXPECT_EQ(some.normal[i], all.normal[coarse.parent_wedge[i]]);
   }
 }
 
@@ -44,9 +63,11 @@ TEST(WedgeTensors, SeeCurvatureBesideAVertexFarAway) {
   sphere.positions[last] *= 1000;
   const TriMesh mesh = support::plain_tri_mesh(sphere);
   const Index count = 1000;
+  std::vector<Index> wedges(count);
+  std::iota(wedges.begin(), wedges.end(), Index{0});
   SilentObserver observer;
   const WedgeTensors tensors = estimate_wedge_tensors(
-      mesh, count, ball_rule({}, mesh.diagonal, mesh.face_count()), observer);
+      mesh, wedges, ball_rule({}, mesh.diagonal, mesh.face_count()), observer);
   EXPECT_EQ(tensors.shrunk, count);
   for (Index w = 0; w < count; ++w) {
     const Vec3 p = mesh.positions[mesh.wedge_vertex[w]];
