@@ -1,64 +1,61 @@
 #include "stages/refine/surface_cells.h"
 
+#include <algorithm>
 #include <limits>
 #include <queue>
-#include <tuple>
+#include <unordered_set>
 
 #include "stages/refine/section_path.h"
 
 namespace strake {
 
-NearestOnSurface::NearestOnSurface(const TriMesh& mesh, const QuadMesh& quads)
-    : mesh_(mesh),
-      nearest_(mesh.positions.size(), kNone),
-      distance_(nearest_.size(), std::numeric_limits<double>::infinity()),
-      in_(mesh.faces.size()) {
-  using Entry = std::tuple<double, Index, Index>;  // distance, vertex, vertex of the result
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+NearestOnSurface::NearestOnSurface(const TriMesh& mesh, const QuadMesh& quads) : mesh_(mesh) {
   for (Index r = 0; r < quads.mesh.vertex_count(); ++r) {
     const SurfacePoint foot{quads.provenance.face[r], quads.provenance.barycentric[r]};
     feet_.push_back(place_of(mesh, foot));
-    in_[foot.face].push_back(r);
-    for (const Index v : mesh.faces[foot.face]) {
-      queue.emplace((mesh.positions[v] - feet_.back()).norm(), v, r);
-    }
+    found_.emplace_back(foot.face, r);
   }
-  while (!queue.empty()) {
-    const auto [reached, v, r] = queue.top();
-    queue.pop();
-    if (nearest_[v] != kNone) continue;
-    nearest_[v] = r;
-    distance_[v] = reached;
-    const Index first = mesh.vertex_out[v];
-    for (Index h = first; h != kNone;) {
-      for (const Index w : {mesh.to(h), mesh.from(TriMesh::prev(h))}) {
-        const double there = reached + (mesh.positions[w] - mesh.positions[v]).norm();
-        if (nearest_[w] == kNone) queue.emplace(there, w, r);
-      }
-      h = mesh.rotate_ccw(h);
-      if (h == first) break;
-    }
-  }
+  std::ranges::sort(found_);
 }
 
 Index NearestOnSurface::vertex(Index face, const Vec3& place) const {
   Index best = kNone;
   double least = std::numeric_limits<double>::infinity();
-  const auto look = [&](Index r, double distance) {
-    if (!(distance < least)) return;
-    least = distance;
-    best = r;
+  // All vertices of the result in a face, from a place whose distance is known.
+  const auto look_in = [&](Index f, const Vec3& from, double reached) {
+    for (auto at = std::ranges::lower_bound(found_, std::pair{f, Index{0}});
+         at != found_.end() && at->first == f; ++at) {
+      const double distance = reached + (feet_[at->second] - from).norm();
+      if (distance > least || (distance == least && at->second > best)) continue;
+      least = distance;
+      best = at->second;
+    }
   };
-  for (const Index v : mesh_.faces[face]) {
-    if (nearest_[v] != kNone) look(nearest_[v], distance_[v] + (mesh_.positions[v] - place).norm());
+  look_in(face, place, 0);
+  for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+    const Index twin = mesh_.twin[h];
+    if (twin != kNone) look_in(TriMesh::face_of(twin), place, 0);
   }
-  const auto look_in = [&](Index f) {
-    for (const Index r : in_[f]) look(r, (feet_[r] - place).norm());
-  };
-  look_in(face);
-  for (int i = 0; i < 3; ++i) {
-    const Index twin = mesh_.twin[3 * face + i];
-    if (twin != kNone) look_in(TriMesh::face_of(twin));
+  using Entry = std::pair<double, Index>;  // distance, vertex of the mesh
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  std::unordered_set<Index> settled;
+  for (const Index v : mesh_.faces[face]) queue.emplace((mesh_.positions[v] - place).norm(), v);
+  while (!queue.empty()) {
+    const auto [reached, v] = queue.top();
+    queue.pop();
+    if (reached > least) break;
+    if (!settled.insert(v).second) continue;
+    const Vec3& here = mesh_.positions[v];
+    const Index first = mesh_.vertex_out[v];
+    for (Index h = first; h != kNone;) {
+      look_in(TriMesh::face_of(h), here, reached);
+      for (const Index w : {mesh_.to(h), mesh_.from(TriMesh::prev(h))}) {
+        const double there = reached + (mesh_.positions[w] - here).norm();
+        if (there <= least && !settled.contains(w)) queue.emplace(there, w);
+      }
+      h = mesh_.rotate_ccw(h);
+      if (h == first) break;
+    }
   }
   return best;
 }

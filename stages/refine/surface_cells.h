@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "common/core/poly_mesh.h"
@@ -16,16 +17,14 @@ class NearestOnSurface {
   /// \param mesh  kept by reference
   NearestOnSurface(const TriMesh& mesh, const QuadMesh& quads);
 
-  /// The vertex of the result nearest to a place of a face; kNone where the piece of surface has
-  /// none.
+  /// The vertex of the result nearest to a place of a face, of several the first; kNone where the
+  /// piece of surface has none. Cost that of the surface up to there; may be called in parallel.
   [[nodiscard]] Index vertex(Index face, const Vec3& place) const;
 
  private:
   const TriMesh& mesh_;
-  std::vector<Vec3> feet_;              ///< [V of the result]
-  std::vector<Index> nearest_;          ///< [V of the mesh] vertex of the result
-  std::vector<double> distance_;        ///< [V of the mesh] to its foot
-  std::vector<std::vector<Index>> in_;  ///< [F] vertices of the result with a foot there
+  std::vector<Vec3> feet_;                      ///< [V of the result]
+  std::vector<std::pair<Index, Index>> found_;  ///< face and vertex of the result there, ascending
 };
 
 }  // namespace strake
