@@ -49,6 +49,12 @@ BallRule ball_rule(const TensorOptions& options, double diagonal, Index faces) {
 WedgeTensors estimate_wedge_tensors(const TriMesh& mesh, const std::vector<Index>& wedges,
                                     const BallRule& rule, Observer& observer) {
   const FaceNormals face_normals(mesh);
+  WedgeTensors result;
+  {  // first, while there is nothing else to remember
+    const std::vector<Vec3> all = wedge_normals(mesh, face_normals);
+    result.normal.reserve(wedges.size());
+    for (const Index w : wedges) result.normal.push_back(all[w]);
+  }
   const std::vector<Vec3> normals = face_normals.all();
   const FaceCycles cycles(mesh, normals);
   const std::vector<double> edge_length = wedge_edge_lengths(mesh);
@@ -57,13 +63,7 @@ WedgeTensors estimate_wedge_tensors(const TriMesh& mesh, const std::vector<Index
   for (Index h = mesh.halfedge_count() - 1; h >= 0; --h) wedge_corner[mesh.wedge_of(h)] = h;
 
   const auto count = static_cast<Index>(wedges.size());
-  WedgeTensors result;
   result.tensor.resize(wedges.size());
-  {
-    const std::vector<Vec3> all = wedge_normals(mesh, face_normals);
-    result.normal.reserve(wedges.size());
-    for (const Index w : wedges) result.normal.push_back(all[w]);
-  }
 
   tbb::enumerable_thread_specific<BallWalker> walkers([&] { return BallWalker(cycles); });
   std::atomic<Index> grown{0};
