@@ -13,9 +13,9 @@ NearestOnSurface::NearestOnSurface(const TriMesh& mesh, const QuadMesh& quads) :
   for (Index r = 0; r < quads.mesh.vertex_count(); ++r) {
     const SurfacePoint foot{quads.provenance.face[r], quads.provenance.barycentric[r]};
     feet_.push_back(place_of(mesh, foot));
-    found_.emplace_back(foot.face, r);
+    by_face_.emplace_back(foot.face, r);
   }
-  std::ranges::sort(found_);
+  std::ranges::sort(by_face_);
 }
 
 Index NearestOnSurface::vertex(Index face, const Vec3& place) const {
@@ -23,8 +23,8 @@ Index NearestOnSurface::vertex(Index face, const Vec3& place) const {
   double least = std::numeric_limits<double>::infinity();
   // All vertices of the result in a face, from a place whose distance is known.
   const auto look_in = [&](Index f, const Vec3& from, double reached) {
-    for (auto at = std::ranges::lower_bound(found_, std::pair{f, Index{0}});
-         at != found_.end() && at->first == f; ++at) {
+    for (auto at = std::ranges::lower_bound(by_face_, std::pair{f, Index{0}});
+         at != by_face_.end() && at->first == f; ++at) {
       const double distance = reached + (feet_[at->second] - from).norm();
       if (distance > least || (distance == least && at->second > best)) continue;
       least = distance;

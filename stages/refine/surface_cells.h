@@ -23,8 +23,9 @@ class NearestOnSurface {
 
  private:
   const TriMesh& mesh_;
-  std::vector<Vec3> feet_;                      ///< [V of the result]
-  std::vector<std::pair<Index, Index>> found_;  ///< face and vertex of the result there, ascending
+  std::vector<Vec3> feet_;  ///< [V of the result]
+  std::vector<std::pair<Index, Index>>
+      by_face_;  ///< face and vertex of the result there, ascending
 };
 
 }  // namespace strake

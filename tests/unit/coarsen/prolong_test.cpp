@@ -63,10 +63,15 @@ TEST(ProlongField, StaysAsItIsAtWedgesOfTheCoarserMesh) {
 // Around the tube the curvature is 1 / r everywhere, and the lines of it are known.
 TEST(ProlongField, HasTheCurvatureOfATorusBetweenThem) {
   const Prolonged torus = prolonged(sample(SampleKind::torus, 40000), 2500);
+  // Relative. Between directions that differ by some degrees interpolation loses up to 1 % more.
+  const auto largest_error = [](const std::vector<double>& k_max) {
+    double largest = 0;
+    for (const double k : k_max) largest = std::max(largest, std::abs(k * kTorusMinorRadius - 1));
+    return largest;
+  };
+  EXPECT_LT(largest_error(torus.before.k_max), 0.08);
+  EXPECT_LT(largest_error(torus.after.k_max), largest_error(torus.before.k_max) + 0.01);
   std::vector<double> angles;
-  std::vector<double> errors;
-  const double largest_before = *std::ranges::max_element(torus.before.k_max);
-  const double least_before = *std::ranges::min_element(torus.before.k_max);
   for (Index w = 0; w < torus.mesh.wedge_count(); ++w) {
     const Vec3 p = torus.mesh.positions[torus.mesh.wedge_vertex[w]] + torus.mesh.origin;
     const Vec3& n = torus.after.normal[w];
@@ -78,12 +83,9 @@ TEST(ProlongField, HasTheCurvatureOfATorusBetweenThem) {
     EXPECT_LE(std::abs(torus.after.k_min[w]), std::abs(torus.after.k_max[w]));
     const Vec3 around_axis = Vec3(-p.y(), p.x(), 0).normalized();
     angles.push_back(angle_deg(t_min, around_axis));
-    errors.push_back(torus.after.k_max[w]);
   }
   std::ranges::sort(angles);
   EXPECT_LT(angles[angles.size() * 99 / 100], 3);
-  EXPECT_LT(*std::ranges::max_element(errors), 1.01 * largest_before);
-  EXPECT_GT(*std::ranges::min_element(errors), 0.99 * least_before);
 }
 
 // The other side is often nearer than what the coarser mesh misses.
