@@ -49,14 +49,13 @@ void take_from_coarser_mesh(Session& session, Session coarser, const GoalStages&
   coarser.use_as("coarse-quads", "fitted");
   coarser.take_from(session, {"mesh"});
   session = std::move(coarser);
+  for (const char* port : {"lines", "size", "refined"}) session.withdraw(port);
   session.run(stages.lift);
   session.keep(stages.lift);
   session.use_as("quads", "lifted");
   session.run(stages.prolong);
   session.keep(stages.prolong);
-  for (const char* port : {"coarse", "coarse-field", "coarse-quads", "lines", "size", "refined"}) {
-    session.withdraw(port);
-  }
+  for (const char* port : {"coarse", "coarse-field", "coarse-quads"}) session.withdraw(port);
   const Option& rounds = stages.fit.option("fit-rounds");
   const std::string all_rounds = rounds.value();
   rounds.parse_into(std::to_string(std::min(kLastRounds, std::stoi(all_rounds))));

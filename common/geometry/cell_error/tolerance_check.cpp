@@ -16,6 +16,15 @@ constexpr double kSmallestPiece = 0.02;
 /// A point of a triangle is at most this share of the longest edge from the nearest corner; rounded
 /// up.
 constexpr double kFarthestInside = 0.57736;
+/// Pieces are cut where one triangle ceases to be near only where that is at least this share of
+/// the way; else in the middle. That place is found up to a share of the tolerance.
+constexpr double kLeastShare = 0.1;
+constexpr double kCutExactly = 0.5;
+constexpr double kLeastStep = 1e-12;  // of the way, whatever the tolerance
+/// Cuts in a row, from a triangle on, that may be made there.
+constexpr int kMostCuts = 16;
+/// Steps in which the place is found, and the share of the tolerance to which they need not come.
+constexpr double kCutAt = 0.8;
 /// Corners in a row of which each is looked for near the foot of the one before.
 constexpr std::size_t kCornersInARow = 64;
 
@@ -40,8 +49,10 @@ class PieceCheck {
   /// be.
   /// \return a triangle of the other surface that no point of the piece is too far from; kNone
   /// where one is, or it takes several triangles to tell
+  /// \param cuts  that may still be made elsewhere than in the middle of the longest edge, which
+  ///              alone ends for certain
   template <class Found>
-  Index check(const Piece& piece, const Found& found) const {
+  Index check(const Piece& piece, const Found& found, int cuts = kMostCuts) const {
     const auto worst = std::max_element(
         piece.begin(), piece.end(),
         [](const Corner& a, const Corner& b) { return a.foot.distance < b.foot.distance; });
@@ -49,48 +60,112 @@ class PieceCheck {
       found(*worst, worst->foot.distance);
       return kNone;
     }
-    const auto [bound, triangle] = upper_bound(piece);
+    const Distances distances = distances_of(piece);
+    const auto [bound, triangle] = upper_bound(piece, distances);
     if (bound <= tolerance_) return triangle;
-    int longest = 0;
-    for (int i = 1; i < 3; ++i) {
-      if (edge(piece, i) > edge(piece, longest)) longest = i;
-    }
-    const double length = edge(piece, longest);
-    if (worst->foot.distance + kFarthestInside * length <= tolerance_) return kNone;
-    if (length < kSmallestPiece * tolerance_) {
+    const std::array<double, 3> lengths = edge_lengths(piece);
+    const int longest = longest_of(lengths, [](int) { return true; });
+    if (worst->foot.distance + kFarthestInside * lengths[longest] <= tolerance_) return kNone;
+    const double smallest = kSmallestPiece * tolerance_;
+    if (lengths[longest] < smallest) {
       found(*worst, bound);
       return kNone;
     }
-    const Corner& a = piece[longest];
-    const Corner& b = piece[(longest + 1) % 3];
-    const Corner& c = piece[(longest + 2) % 3];
-    const Corner middle = corner(0.5 * (a.place + b.place), a.foot.triangle);
-    check({a, middle, c}, found);
-    check({middle, b, c}, found);
+    const int uncovered = longest_of(lengths, [&](int i) {
+      return cuts > 0 && lengths[i] >= smallest && !is_covered(distances, i);
+    });
+    const int cut = uncovered == kNone ? longest : uncovered;
+    const Corner& a = piece[cut];
+    const Corner& b = piece[(cut + 1) % 3];
+    const Corner& c = piece[(cut + 2) % 3];
+    const double share = uncovered == kNone ? 0.5 : where_to_cut(a, b);
+    const Corner between = corner(a.place + share * (b.place - a.place), a.foot.triangle);
+    check({a, between, c}, found, cuts - 1);
+    check({between, b, c}, found, cuts - 1);
     return kNone;
   }
 
  private:
-  static double edge(const Piece& piece, int i) {
-    return (piece[i].place - piece[(i + 1) % 3].place).norm();
+  /// [i][j] distance of corner j from the triangle nearest to corner i.
+  using Distances = std::array<std::array<double, 3>, 3>;
+
+  [[nodiscard]] double distance_from(Index triangle, const Vec3& place) const {
+    const auto& [a, b, c] = other_.triangles()[triangle];
+    const std::vector<Vec3>& p = other_.positions();
+    return closest_point_on_triangle(place, p[a], p[b], p[c]).distance;
+  }
+
+  [[nodiscard]] Distances distances_of(const Piece& piece) const {
+    Distances distances;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        distances[i][j] =
+            i == j ? piece[i].foot.distance : distance_from(piece[i].foot.triangle, piece[j].place);
+      }
+    }
+    return distances;
   }
 
   /// The least, over the triangles nearest to the corners, of the distance from one that no point
   /// of the piece exceeds; and that triangle.
-  [[nodiscard]] std::pair<double, Index> upper_bound(const Piece& piece) const {
+  static std::pair<double, Index> upper_bound(const Piece& piece, const Distances& distances) {
     std::pair<double, Index> least{std::numeric_limits<double>::infinity(), kNone};
     for (int i = 0; i < 3; ++i) {
-      const auto& t = other_.triangles()[piece[i].foot.triangle];
-      const auto& p = other_.positions();
-      double largest = piece[i].foot.distance;
-      for (int j = 0; j < 3 && largest < least.first; ++j) {
-        if (j == i) continue;
-        largest = std::max(
-            largest, closest_point_on_triangle(piece[j].place, p[t[0]], p[t[1]], p[t[2]]).distance);
-      }
+      const double largest = std::ranges::max(distances[i]);
       if (largest < least.first) least = {largest, piece[i].foot.triangle};
     }
     return least;
+  }
+
+  /// Whether one of the triangles nearest to the corners is near to all of edge i.
+  [[nodiscard]] bool is_covered(const Distances& distances, int i) const {
+    return std::ranges::any_of(distances, [&](const std::array<double, 3>& from) {
+      return from[i] <= tolerance_ && from[(i + 1) % 3] <= tolerance_;
+    });
+  }
+
+  static std::array<double, 3> edge_lengths(const Piece& piece) {
+    std::array<double, 3> lengths;
+    for (int i = 0; i < 3; ++i) lengths[i] = (piece[i].place - piece[(i + 1) % 3].place).norm();
+    return lengths;
+  }
+
+  /// Of those edges that `counts`; kNone where none does.
+  template <class Counts>
+  static int longest_of(const std::array<double, 3>& lengths, const Counts& counts) {
+    int longest = kNone;
+    for (int i = 0; i < 3; ++i) {
+      if (counts(i) && (longest == kNone || lengths[i] > lengths[longest])) longest = i;
+    }
+    return longest;
+  }
+
+  /// How far along the way from `a` to `b` the triangle nearest to `a` stays near, which it does
+  /// not to its end; 0 where that is not worth a cut.
+  [[nodiscard]] double covered_share(const Corner& a, const Corner& b) const {
+    const auto is_near = [&](double share) {
+      const Vec3 place = a.place + share * (b.place - a.place);
+      return distance_from(a.foot.triangle, place) <= tolerance_;
+    };
+    if (!is_near(kLeastShare)) return 0;
+    double near = kLeastShare;
+    double far = 1;
+    const double enough =
+        std::max(kCutExactly * tolerance_ / (b.place - a.place).norm(), kLeastStep);
+    while (far - near > enough) {
+      const double middle = (near + far) / 2;
+      (is_near(middle) ? near : far) = middle;
+    }
+    return near;
+  }
+
+  /// The share of the way from `a` to `b`, which no triangle is near to all of, at which to cut it.
+  [[nodiscard]] double where_to_cut(const Corner& a, const Corner& b) const {
+    const double from_a = covered_share(a, b);
+    const double from_b = covered_share(b, a);
+    if (from_a + from_b >= 1) return (from_a + 1 - from_b) / 2;
+    if (from_a == 0 && from_b == 0) return 0.5;
+    return from_a >= from_b ? from_a : 1 - from_b;
   }
 
   const SurfaceDistance& other_;

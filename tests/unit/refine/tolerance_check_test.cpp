@@ -73,6 +73,20 @@ TEST(ToleranceCheck, FindsWhatLiesBetweenAllCorners) {
   EXPECT_TRUE(is_within(c, 1.01 * h));
 }
 
+/// Two ways to cut the same plane into triangles, far larger than the tolerance: pieces that
+/// straddle an edge of the other surface are cut there. Halved, they would be some ten million.
+TEST(ToleranceCheck, ProvesLargeFlatsWithinASmallTolerance) {
+  Case c = grid(8, 2, [](double, double) { return 0.0; });
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> shift(-0.05, 0.05);
+  for (Vec3& p : c.quads.mesh.positions) {
+    for (int axis = 0; axis < 2; ++axis) {
+      if (p[axis] > 0 && p[axis] < 1) p[axis] += shift(random);
+    }
+  }
+  EXPECT_TRUE(is_within(c, 1e-6));
+}
+
 /// Only one of the ways to cut it is the surface.
 TEST(ToleranceCheck, FindsCellsThatRoundingMayCutBeyondTheTolerance) {
   for (const double shift : {0.0, -1e-12, 1e-12}) {
