@@ -23,8 +23,6 @@ constexpr double kCutExactly = 0.5;
 constexpr double kLeastStep = 1e-12;  // of the way, whatever the tolerance
 /// Cuts in a row, from a triangle on, that may be made there.
 constexpr int kMostCuts = 16;
-/// Steps in which the place is found, and the share of the tolerance to which they need not come.
-constexpr double kCutAt = 0.8;
 /// Corners in a row of which each is looked for near the foot of the one before.
 constexpr std::size_t kCornersInARow = 64;
 
@@ -47,10 +45,10 @@ class PieceCheck {
 
   /// Calls found(corner, distance) for places of the piece that are too far, or not proven not to
   /// be.
-  /// \return a triangle of the other surface that no point of the piece is too far from; kNone
-  /// where one is, or it takes several triangles to tell
   /// \param cuts  that may still be made elsewhere than in the middle of the longest edge, which
   ///              alone ends for certain
+  /// \return a triangle of the other surface that no point of the piece is too far from; kNone
+  /// where one is, or it takes several triangles to tell
   template <class Found>
   Index check(const Piece& piece, const Found& found, int cuts = kMostCuts) const {
     const auto worst = std::max_element(
