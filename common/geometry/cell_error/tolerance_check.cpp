@@ -44,30 +44,35 @@ class PieceCheck {
   }
 
   /// Calls found(corner, distance) for places of the piece that are too far, or not proven not to
-  /// be.
+  /// be, and near(triangle) for triangles of the other surface that all else is near to, some of
+  /// them several times.
   /// \param cuts  that may still be made elsewhere than in the middle of the longest edge, which
   ///              alone ends for certain
-  /// \return a triangle of the other surface that no point of the piece is too far from; kNone
-  /// where one is, or it takes several triangles to tell
-  template <class Found>
-  Index check(const Piece& piece, const Found& found, int cuts = kMostCuts) const {
+  template <class Found, class Near>
+  void check(const Piece& piece, const Found& found, const Near& near, int cuts = kMostCuts) const {
     const auto worst = std::max_element(
         piece.begin(), piece.end(),
         [](const Corner& a, const Corner& b) { return a.foot.distance < b.foot.distance; });
     if (worst->foot.distance > tolerance_) {
       found(*worst, worst->foot.distance);
-      return kNone;
+      return;
     }
     const Distances distances = distances_of(piece);
     const auto [bound, triangle] = upper_bound(piece, distances);
-    if (bound <= tolerance_) return triangle;
+    if (bound <= tolerance_) {
+      near(triangle);
+      return;
+    }
     const std::array<double, 3> lengths = edge_lengths(piece);
     const int longest = longest_of(lengths, [](int) { return true; });
-    if (worst->foot.distance + kFarthestInside * lengths[longest] <= tolerance_) return kNone;
+    if (worst->foot.distance + kFarthestInside * lengths[longest] <= tolerance_) {
+      for (const Corner& corner : piece) near(corner.foot.triangle);
+      return;
+    }
     const double smallest = kSmallestPiece * tolerance_;
     if (lengths[longest] < smallest) {
       found(*worst, bound);
-      return kNone;
+      return;
     }
     const int uncovered = longest_of(lengths, [&](int i) {
       return cuts > 0 && lengths[i] >= smallest && !is_covered(distances, i);
@@ -78,9 +83,8 @@ class PieceCheck {
     const Corner& c = piece[(cut + 2) % 3];
     const double share = uncovered == kNone ? 0.5 : where_to_cut(a, b);
     const Corner between = corner(a.place + share * (b.place - a.place), a.foot.triangle);
-    check({a, between, c}, found, cuts - 1);
-    check({between, b, c}, found, cuts - 1);
-    return kNone;
+    check({a, between, c}, found, near, cuts - 1);
+    check({between, b, c}, found, near, cuts - 1);
   }
 
  private:
@@ -175,7 +179,21 @@ struct Verdict {
   double distance = 0;
   Vec3 place = Vec3::Zero();
   Index on_other = kNone;  ///< nearest to that place; kNone: none is beyond
-  Index covering = kNone;  ///< triangle of the other surface that is near to all of this one
+  /// Triangles of the other surface that all that is not beyond is near to, each to a part of it.
+  /// Asks for no memory where it is one, as it mostly is.
+  Index first_near = kNone;
+  std::vector<Index> other_near;
+
+  void note_near(Index triangle) {
+    if (first_near == kNone) first_near = triangle;
+    const Index last = other_near.empty() ? first_near : other_near.back();
+    if (triangle != last) other_near.push_back(triangle);
+  }
+  /// Leaves each of the others once.
+  void end_notes() {
+    std::ranges::sort(other_near);
+    other_near.erase(std::unique(other_near.begin(), other_near.end()), other_near.end());
+  }
 };
 
 /// [triangles] of one surface. \param is_proven  [triangles] 1: need not be looked at
@@ -202,10 +220,15 @@ std::vector<Verdict> check_surface(const SurfaceDistance& own, const SurfaceDist
     if (is_proven[t] != 0) return;
     const auto& [a, b, c] = own.triangles()[t];
     Verdict& verdict = verdicts[t];
-    verdict.covering =
-        check.check({corners[a], corners[b], corners[c]}, [&](const Corner& at, double distance) {
-          if (distance > verdict.distance) verdict = {distance, at.place, at.foot.triangle};
-        });
+    const auto note_found = [&](const Corner& at, double distance) {
+      if (distance <= verdict.distance) return;
+      verdict.distance = distance;
+      verdict.place = at.place;
+      verdict.on_other = at.foot.triangle;
+    };
+    check.check({corners[a], corners[b], corners[c]}, note_found,
+                [&](Index triangle) { verdict.note_near(triangle); });
+    verdict.end_notes();
   });
   return verdicts;
 }
@@ -244,9 +267,7 @@ std::size_t ToleranceProof::Hash::operator()(const Triangle& triangle) const {
 }
 
 ToleranceProof::ToleranceProof(std::shared_ptr<const InputSurface> input, double tolerance)
-    : input_(std::move(input)),
-      tolerance_(tolerance),
-      covering_(input_->mesh.faces.size(), kNone) {}
+    : input_(std::move(input)), tolerance_(tolerance), near_(input_->mesh.faces.size(), kNone) {}
 
 /// Takes what is known of the last result to the triangles of the next one.
 void ToleranceProof::carry_over(const SurfaceDistance& result) {
@@ -268,9 +289,14 @@ void ToleranceProof::carry_over(const SurfaceDistance& result) {
     now[before] = found->second;
     is_proven[found->second] = is_proven_[before];
   }
-  for (Index& covering : covering_) {
-    if (covering != kNone) covering = now[covering];
+  for (Index& near : near_) {
+    if (near != kNone) near = now[near];
   }
+  for (auto& [face, others] : others_near_) {
+    for (Index& near : others) near = now[near];
+    if (std::ranges::find(others, kNone) != others.end()) near_[face] = kNone;
+  }
+  std::erase_if(others_near_, [&](const auto& entry) { return near_[entry.first] == kNone; });
   number_ = std::move(number);
   is_proven_ = std::move(is_proven);
 }
@@ -283,17 +309,21 @@ std::vector<Excess> ToleranceProof::check(const ComparedSurfaces& surfaces) {
 std::vector<Excess> ToleranceProof::check(const SurfaceDistance& result,
                                           const std::vector<Index>& cell) {
   carry_over(result);
-  std::vector<char> is_covered(covering_.size());
-  for (std::size_t f = 0; f < is_covered.size(); ++f) is_covered[f] = covering_[f] != kNone ? 1 : 0;
+  std::vector<char> is_near(near_.size());
+  for (std::size_t f = 0; f < is_near.size(); ++f) is_near[f] = near_[f] != kNone ? 1 : 0;
   const std::vector<Verdict> of_result =
       check_surface(result, input_->distance, tolerance_, is_proven_);
-  const std::vector<Verdict> of_input =
-      check_surface(input_->distance, result, tolerance_, is_covered);
+  std::vector<Verdict> of_input = check_surface(input_->distance, result, tolerance_, is_near);
   for (std::size_t t = 0; t < of_result.size(); ++t) {
     if (of_result[t].on_other == kNone) is_proven_[t] = 1;
   }
   for (std::size_t f = 0; f < of_input.size(); ++f) {
-    if (is_covered[f] == 0) covering_[f] = of_input[f].covering;
+    Verdict& verdict = of_input[f];
+    if (is_near[f] != 0 || verdict.on_other != kNone) continue;
+    near_[f] = verdict.first_near;
+    if (!verdict.other_near.empty()) {
+      others_near_[static_cast<Index>(f)] = std::move(verdict.other_near);
+    }
   }
   return excess_of(of_result, of_input, cell);
 }

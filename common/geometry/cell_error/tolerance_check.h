@@ -32,8 +32,8 @@ struct Excess {
 std::vector<Excess> check_tolerance(const ComparedSurfaces& surfaces, double tolerance);
 
 /// `check_tolerance` for one result after another of the same input: triangles of a result that
-/// were in the one before, and those of the input that one of them is near to, need not be proven
-/// again.
+/// were in the one before, and those of the input that such triangles are near to, need not be
+/// proven again.
 class ToleranceProof {
  public:
   /// \param tolerance  model units, positive
@@ -64,7 +64,10 @@ class ToleranceProof {
   double tolerance_;
   std::unordered_map<Triangle, Index, Hash> number_;  ///< of the last result's triangles
   std::vector<char> is_proven_;                       ///< [triangles of it] 1: nowhere beyond
-  std::vector<Index> covering_;  ///< [F] triangle of it near to all of the face; kNone: unknown
+  /// [F] a triangle of it that the face is near to, or a part of the face; kNone: not proven
+  std::vector<Index> near_;
+  /// Faces that take further ones, with these.
+  std::unordered_map<Index, std::vector<Index>> others_near_;
 };
 
 }  // namespace strake

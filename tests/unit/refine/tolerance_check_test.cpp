@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <random>
@@ -23,6 +24,17 @@ std::vector<Index> cells_in_doubt(const ComparedSurfaces& surfaces, double toler
 
 bool is_within(const Case& c, double tolerance) {
   return check_tolerance(ComparedSurfaces(c.mesh, c.quads), tolerance).empty();
+}
+
+/// Moves inner vertices of a result within the plane, so that faces of the input lie over several
+/// of its own.
+void shift_within(Case& c, double most, std::mt19937& random) {
+  std::uniform_real_distribution<double> shift(-most, most);
+  for (Vec3& p : c.quads.mesh.positions) {
+    for (int axis = 0; axis < 2; ++axis) {
+      if (p[axis] > 0 && p[axis] < 1) p[axis] += shift(random);
+    }
+  }
 }
 
 /// A plane lifted by d is d away, everywhere and both ways.
@@ -78,12 +90,7 @@ TEST(ToleranceCheck, FindsWhatLiesBetweenAllCorners) {
 TEST(ToleranceCheck, ProvesLargeFlatsWithinASmallTolerance) {
   Case c = grid(8, 2, [](double, double) { return 0.0; });
   std::mt19937 random(1);
-  std::uniform_real_distribution<double> shift(-0.05, 0.05);
-  for (Vec3& p : c.quads.mesh.positions) {
-    for (int axis = 0; axis < 2; ++axis) {
-      if (p[axis] > 0 && p[axis] < 1) p[axis] += shift(random);
-    }
-  }
+  shift_within(c, 0.05, random);
   EXPECT_TRUE(is_within(c, 1e-6));
 }
 
@@ -138,12 +145,15 @@ void turn_round(PolyMesh& mesh) {
   mesh.offsets = turned.offsets;
 }
 
+class ToleranceProofOf : public testing::TestWithParam<double> {};
+
 /// Whatever changes from one result to the next, and back again.
-TEST(ToleranceProof, FindsWhatANewCheckFinds) {
+TEST_P(ToleranceProofOf, ResultsInARowFindsWhatNewChecksFind) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> height(0, 0.02);
   std::uniform_real_distribution<double> lift(-0.1, 0.1);
   Case c = grid(24, 6, [&](double, double) { return height(random); });
+  shift_within(c, GetParam(), random);
   const std::vector<Vec3> places = c.quads.mesh.positions;
   constexpr double kTolerance = 0.03;
   ToleranceProof proof(std::make_shared<const InputSurface>(c.mesh), kTolerance);
@@ -168,6 +178,24 @@ TEST(ToleranceProof, FindsWhatANewCheckFinds) {
   }
   EXPECT_GT(within, 10);
   EXPECT_LT(within, 30);
+}
+INSTANTIATE_TEST_SUITE_P(Shifts, ToleranceProofOf, testing::Values(0.0, 0.03));
+
+/// Two faces of the input under 64 of the result: each of its inner vertices in turn is lifted.
+TEST(ToleranceProof, WatchesAllThatAFaceIsNearTo) {
+  const auto flat = [](double, double) { return 0.0; };
+  Case c = grid(8, 8, flat);
+  const TriMesh square = grid(1, 1, flat).mesh;
+  ToleranceProof proof(std::make_shared<const InputSurface>(square), 0.01);
+  for (Vec3& p : c.quads.mesh.positions) {
+    EXPECT_TRUE(proof.check(ComparedSurfaces(proof.input(), c.quads)).empty());
+    if (p.x() == 0 || p.x() == 1 || p.y() == 0 || p.y() == 1) continue;
+    p.z() = 0.05;
+    const std::vector<Excess> found = proof.check(ComparedSurfaces(proof.input(), c.quads));
+    const auto is_on_input = [](const Excess& e) { return e.input_face != kNone; };
+    EXPECT_TRUE(std::ranges::any_of(found, is_on_input));
+    p.z() = 0;
+  }
 }
 
 /// The same excesses for any number of threads, and when both surfaces are moved.
