@@ -1,7 +1,6 @@
 #include "stages/refine/refine.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -21,7 +20,9 @@
 #include "common/geometry/face_crossings/face_crossings.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_topology.h"
+#include "stages/refine/cells_beyond.h"
 #include "stages/refine/changes_within.h"
+#include "stages/refine/inlays.h"
 #include "stages/refine/split_cells.h"
 #include "stages/refine/surface_cells.h"
 #include "stages/refine/surface_points.h"
@@ -51,12 +52,6 @@ constexpr std::int64_t kRoundsOfCount = 4;
 constexpr int kMostRetreats = 8;
 /// Vertices that dividing a cell gives, about.
 constexpr double kVerticesPerCell = 1.5;
-
-/// A cell to be divided.
-struct Target {
-  Index face = kNone;
-  double distance = 0;  ///< that it is off by
-};
 
 class Refinement {
  public:
@@ -102,6 +97,8 @@ class Refinement {
   /// Changes what may be better in a result that is within the tolerance.
   void finish(ToleranceProof& proof) {
     refill_within(proof, quads_);
+    CrossingPlaces crossing(mesh_);
+    inlay_crossing(proof, crossing, quads_);
     pair_odd_cells_within(proof, points_, quads_);
     cut_cells_in_doubt(proof, quads_);
   }
@@ -237,38 +234,6 @@ class Refinement {
   std::vector<Vec3> normals_;    ///< [V] sums over the faces around
 };
 
-/// The cells to divide so that no place is beyond the tolerance any more.
-std::vector<Target> cells_beyond(const TriMesh& mesh, const QuadMesh& quads,
-                                 const std::vector<Excess>& excess, bool on_surface) {
-  std::vector<double> distance(static_cast<std::size_t>(quads.mesh.face_count()), 0);
-  const auto note = [&](Index cell, double d) { distance[cell] = std::max(distance[cell], d); };
-  std::vector<std::vector<Index>> cells_around(on_surface ? quads.mesh.positions.size() : 0);
-  std::vector<Index> nearest(on_surface ? excess.size() : 0, kNone);  // vertices, on the surface
-  if (on_surface) {
-    const NearestOnSurface search(mesh, quads);
-    tbb::parallel_for(std::size_t{0}, excess.size(), [&](std::size_t i) {
-      const Excess& e = excess[i];
-      if (e.input_face != kNone) nearest[i] = search.vertex(e.input_face, e.place);
-    });
-    for (Index f = 0; f < quads.mesh.face_count(); ++f) {
-      for (const Index v : quads.mesh.face(f)) cells_around[v].push_back(f);
-    }
-  }
-  for (std::size_t i = 0; i < excess.size(); ++i) {
-    const Excess& e = excess[i];
-    if (!on_surface || e.input_face == kNone) {
-      note(e.cell, e.distance);
-    } else if (nearest[i] != kNone) {
-      for (const Index f : cells_around[nearest[i]]) note(f, e.distance);
-    }
-  }
-  std::vector<Target> targets;
-  for (std::size_t f = 0; f < distance.size(); ++f) {
-    if (distance[f] > 0) targets.push_back({static_cast<Index>(f), distance[f]});
-  }
-  return targets;
-}
-
 /// All cells, those that are farthest off first.
 std::vector<Target> cells_by_distance(const ComparedSurfaces& surfaces) {
   const ErrorMap errors = measure_cells(surfaces);
@@ -309,6 +274,7 @@ std::int64_t refine_to_tolerance(const TriMesh& mesh, Refinement& refinement,
   std::size_t last = std::numeric_limits<std::size_t>::max();  // places before the last division
   std::vector<Excess> fewest;  // where dividing came nearest, of all rounds
   std::int64_t fewest_round = 0;
+  QuadMesh nearest;  // the result then
   for (std::int64_t round = 0;; ++round) {
     observer.report("dividing cells", double(round) / double(options.rounds + 1));
     const ComparedSurfaces surfaces(proof.input(), refinement.quads());
@@ -321,9 +287,15 @@ std::int64_t refine_to_tolerance(const TriMesh& mesh, Refinement& refinement,
     if (round == 0 || excess.size() < fewest.size()) {
       fewest = excess;
       fewest_round = round;
+      if (!options.partly) nearest = refinement.quads();
     }
     if (round == options.rounds || round - fewest_round == kRoundsInVain) {
       if (options.partly) return round;
+      if (options.rounds > 0 && inlay_beyond(proof, fewest, nearest)) {
+        refinement.take(std::move(nearest));
+        refinement.finish(proof);
+        return round;
+      }
       std::vector<Vec3> places;
       for (const Excess& e : fewest) places.push_back(e.place);
       throw ToleranceError(

@@ -11,10 +11,10 @@
 
 #include "common/core/error.h"
 #include "common/core/tolerance_error.h"
+#include "common/geometry/face_crossings/crossing_places.h"
 #include "stages/size/closer_near.h"
 #include "strake/chain/attempt.h"
 #include "strake/chain/count_search.h"
-#include "strake/chain/crossing_places.h"
 #include "strake/chain/density_match.h"
 #include "strake/chain/too_coarse.h"
 #include "strake/chain/working_mesh.h"

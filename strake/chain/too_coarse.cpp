@@ -8,8 +8,8 @@
 
 #include "common/core/error.h"
 #include "common/geometry/cell_error/cell_error.h"
+#include "common/geometry/face_crossings/crossing_places.h"
 #include "common/geometry/mesh_measures.h"
-#include "strake/chain/crossing_places.h"
 
 namespace strake {
 namespace {

@@ -15,6 +15,8 @@
 #include "common/geometry/face_crossings/box_tree.h"
 #include "common/geometry/face_crossings/placed_face.h"
 #include "common/geometry/mesh_measures.h"
+#include "common/geometry/patch_fill/disk_outline.h"
+#include "common/geometry/patch_fill/drop_unused_vertices.h"
 #include "common/geometry/patch_fill/fill_polygon.h"
 #include "common/geometry/patch_fill/join_triangles.h"
 #include "common/geometry/patch_fill/mendable_crossings.h"
@@ -242,35 +244,19 @@ class Refilling {
 
   /// The vertices around a part, counter-clockwise; empty where it is no disk, or may not go.
   Polygon outline_of(const std::vector<Index>& part, Kept kept, std::vector<Index>& pinched) const {
-    std::map<Index, Index> next;
-    std::set<Index> vertices;
-    std::size_t sides = 0;
-    for (const Index f : part) {
-      for_sides(f, [&](Index a, Index b) {
-        ++sides;
-        vertices.insert(a);
-        const Index g = neighbour(a, b);
-        const bool is_inside = g != kNone && std::ranges::binary_search(part, g);
-        if (is_inside && !is_wall(a, b, kept)) return;
-        if (!next.emplace(a, b).second) pinched.push_back(a);
-      });
-    }
-    if (!pinched.empty() || next.empty() || next.size() > kMostSides) return {};
-    Polygon outline = {next.begin()->first};
-    while (outline.size() <= next.size()) {
-      const auto following = next.find(outline.back());
-      if (following == next.end()) return {};
-      if (following->second == outline.front()) break;
-      outline.push_back(following->second);
-    }
-    if (outline.size() != next.size() || outline.size() < 3) return {};
-    // One outline does not make it a disk: it may have handles. Inner edges have two sides.
-    const std::size_t edges = (sides + outline.size()) / 2;
-    if (vertices.size() + part.size() != edges + 1) return {};
-    const bool may_go = std::ranges::all_of(vertices, [&](Index v) {
-      return is_touched_[v] == 0 && (next.contains(v) || may_be_lost(v, kept));
-    });
-    return may_go ? outline : Polygon{};
+    std::vector<Polygon> faces;
+    for (const Index f : part) faces.emplace_back(face(f).begin(), face(f).end());
+    DiskOutline outline =
+        disk_outline(faces, [&](Index a, Index b) { return is_wall(a, b, kept); });
+    pinched.insert(pinched.end(), outline.pinched.begin(), outline.pinched.end());
+    if (outline.ring.empty() || outline.ring.size() > kMostSides) return {};
+    const std::set<Index> around(outline.ring.begin(), outline.ring.end());
+    const auto may_go = [&](Index v) {
+      return is_touched_[v] == 0 && (around.contains(v) || may_be_lost(v, kept));
+    };
+    const bool all_may_go = std::ranges::all_of(
+        faces, [&](const Polygon& polygon) { return std::ranges::all_of(polygon, may_go); });
+    return all_may_go ? std::move(outline.ring) : Polygon{};
   }
 
   bool fill_outline(const std::vector<Index>& part, const Polygon& outline, Kept kept,
@@ -418,20 +404,9 @@ class Refilling {
       if (is_removed_[f] == 0) refilled.add_face(face(f));
     }
     for (const Polygon& polygon : added_) refilled.add_face(polygon);
-    std::vector<Index> number(positions_.size(), kNone);
-    for (const Index v : refilled.corners) number[v] = 0;
-    VertexProvenance provenance;
-    for (std::size_t v = 0; v < number.size(); ++v) {
-      if (number[v] == kNone) continue;
-      number[v] = refilled.vertex_count();
-      refilled.positions.push_back(quads_.mesh.positions[v]);
-      provenance.face.push_back(quads_.provenance.face[v]);
-      provenance.barycentric.push_back(quads_.provenance.barycentric[v]);
-      provenance.lines.push_back(quads_.provenance.lines[v]);
-    }
-    for (Index& v : refilled.corners) v = number[v];
+    refilled.positions = std::move(quads_.mesh.positions);
     quads_.mesh = std::move(refilled);
-    quads_.provenance = std::move(provenance);
+    drop_unused_vertices(quads_);
   }
 
   const SurfaceDistance& surface_;

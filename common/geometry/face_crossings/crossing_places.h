@@ -15,8 +15,10 @@ class CrossingPlaces {
   /// \param mesh  the input, kept by reference
   explicit CrossingPlaces(const TriMesh& mesh) : mesh_(mesh) {}
 
-  /// The middles of the faces that cross others, relative to the mesh's origin, but for pairs
-  /// within reach of which, of either face, the input crosses itself.
+  /// The faces that cross others, ascending, but for pairs within reach of which, of either face,
+  /// the input crosses itself.
+  std::vector<Index> faces_of(const PolyMesh& result);
+  /// The middles of these faces, relative to the mesh's origin.
   std::vector<Vec3> of(const PolyMesh& result);
 
  private:

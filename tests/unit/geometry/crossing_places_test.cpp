@@ -1,4 +1,4 @@
-#include "strake/chain/crossing_places.h"
+#include "common/geometry/face_crossings/crossing_places.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "strake/chain/crossing_places.h"
+#include "common/geometry/face_crossings/crossing_places.h"
 
 #include <algorithm>
 #include <map>
@@ -24,7 +24,7 @@ std::pair<Vec3, double> middle_of(const PolyMesh& mesh, Index face) {
 
 }  // namespace
 
-std::vector<Vec3> CrossingPlaces::of(const PolyMesh& result) {
+std::vector<Index> CrossingPlaces::faces_of(const PolyMesh& result) {
   std::map<Index, bool> excused;  // by face
   const auto is_excused = [&](Index f) {
     const auto [at, is_new] = excused.try_emplace(f, false);
@@ -38,8 +38,14 @@ std::vector<Vec3> CrossingPlaces::of(const PolyMesh& result) {
   for (const auto& pair : find_crossing_faces(result.positions, triangulate_faces(result))) {
     if (std::ranges::none_of(pair, is_excused)) faces.insert(pair.begin(), pair.end());
   }
+  return {faces.begin(), faces.end()};
+}
+
+std::vector<Vec3> CrossingPlaces::of(const PolyMesh& result) {
   std::vector<Vec3> places;
-  for (const Index f : faces) places.push_back(middle_of(result, f).first - mesh_.origin);
+  for (const Index f : faces_of(result)) {
+    places.push_back(middle_of(result, f).first - mesh_.origin);
+  }
   return places;
 }
 

@@ -1,0 +1,42 @@
+#include "stages/refine/cells_beyond.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "stages/refine/surface_cells.h"
+
+namespace strake {
+
+std::vector<Target> cells_beyond(const TriMesh& mesh, const QuadMesh& quads,
+                                 const std::vector<Excess>& excess, bool on_surface) {
+  std::vector<double> distance(static_cast<std::size_t>(quads.mesh.face_count()), 0);
+  const auto note = [&](Index cell, double d) { distance[cell] = std::max(distance[cell], d); };
+  std::vector<std::vector<Index>> cells_around(on_surface ? quads.mesh.positions.size() : 0);
+  std::vector<Index> nearest(on_surface ? excess.size() : 0, kNone);  // vertices, on the surface
+  if (on_surface) {
+    const NearestOnSurface search(mesh, quads);
+    tbb::parallel_for(std::size_t{0}, excess.size(), [&](std::size_t i) {
+      const Excess& e = excess[i];
+      if (e.input_face != kNone) nearest[i] = search.vertex(e.input_face, e.place);
+    });
+    for (Index f = 0; f < quads.mesh.face_count(); ++f) {
+      for (const Index v : quads.mesh.face(f)) cells_around[v].push_back(f);
+    }
+  }
+  for (std::size_t i = 0; i < excess.size(); ++i) {
+    const Excess& e = excess[i];
+    if (!on_surface || e.input_face == kNone) {
+      note(e.cell, e.distance);
+    } else if (nearest[i] != kNone) {
+      for (const Index f : cells_around[nearest[i]]) note(f, e.distance);
+    }
+  }
+  std::vector<Target> targets;
+  for (std::size_t f = 0; f < distance.size(); ++f) {
+    if (distance[f] > 0) targets.push_back({static_cast<Index>(f), distance[f]});
+  }
+  return targets;
+}
+
+}  // namespace strake

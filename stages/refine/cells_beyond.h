@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "common/core/poly_mesh.h"
+#include "common/core/tri_mesh.h"
+#include "common/geometry/cell_error/tolerance_check.h"
+
+namespace strake {
+
+/// A cell to be divided.
+struct Target {
+  Index face = kNone;
+  double distance = 0;  ///< that it is off by
+};
+
+/// The cells to divide so that no place is beyond the tolerance any more, ascending.
+/// \param excess      of `quads`, a result of `mesh`
+/// \param on_surface  whether places of the input are those of the cells around the vertex that is
+///                    nearest over the surface, rather than of the cell that is nearest in space
+std::vector<Target> cells_beyond(const TriMesh& mesh, const QuadMesh& quads,
+                                 const std::vector<Excess>& excess, bool on_surface);
+
+}  // namespace strake

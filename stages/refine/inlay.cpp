@@ -1,0 +1,275 @@
+#include "stages/refine/inlay.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <span>
+#include <unordered_set>
+#include <utility>
+
+#include "common/geometry/angles.h"
+#include "common/geometry/patch_fill/disk_outline.h"
+#include "common/geometry/patch_fill/fill_band.h"
+#include "common/geometry/surface_distance/surface_distance.h"
+#include "stages/refine/enclosed.h"
+#include "stages/refine/surface_part.h"
+
+namespace strake {
+namespace {
+
+/// Times that a patch which touches itself in a vertex takes in all around that, or gives it up.
+constexpr int kMostClosings = 8;
+/// Faces of the input around one inlay, and edges to choose from in a band.
+constexpr std::size_t kMostFaces = 20000;
+constexpr std::size_t kMostBandEdges = 400000;
+/// Of the size of a patch; edges of the input that are shorter are not divided.
+constexpr double kLeastStep = 1.0 / 48;
+/// Share of its edges within which the input's vertices are on an outline.
+constexpr double kOnOutline = 0.05;
+/// What the square of an edge's distance from the input costs in a band, over that of its length,
+/// and the share of the cost that remains along a feature line.
+constexpr double kOffCost = 100;
+constexpr double kAlongLine = 1e-6;
+
+using Polygon = std::vector<Index>;
+
+}  // namespace
+
+/// A disk of cells.
+struct InlayCutter::Patch {
+  std::vector<Index> cells;  ///< ascending
+  Polygon outline;           ///< counter-clockwise
+};
+
+/// The faces of the input over a patch.
+class InlayCutter::Cover {
+ public:
+  Cover(const InlayCutter& cutter, const Patch& patch) : surfaces_(cutter.surfaces_) {
+    std::set<Index> around;
+    for (const Index v : patch.outline) cutter.add_around(v, around);
+    around.insert(patch.cells.begin(), patch.cells.end());
+    Eigen::AlignedBox3d box;
+    std::vector<Index> feet;
+    for (const Index f : around) {
+      const bool is_in = std::ranges::binary_search(patch.cells, f);
+      for (const Index v : cutter.quads_.mesh.face(f)) {
+        box.extend(surfaces_.positions()[v]);
+        if (is_in) feet.push_back(cutter.quads_.provenance.face[v]);
+      }
+      for (Index t = surfaces_.first_triangle(f); t < surfaces_.first_triangle(f + 1); ++t) {
+        const auto& [a, b, c] = surfaces_.triangles().corners[t];
+        const Vec3& p = surfaces_.positions()[a];
+        triangles_.push_back({a, b, c});
+        is_of_patch_.push_back(is_in ? 1 : 0);
+        normals_.push_back((surfaces_.positions()[b] - p).cross(surfaces_.positions()[c] - p));
+      }
+    }
+    nearest_.emplace(surfaces_.positions(), triangles_);
+    double length = 0;
+    for (std::size_t i = 0; i < patch.outline.size(); ++i) length += side(patch.outline, i);
+    length /= static_cast<double>(patch.outline.size());
+    const double longest = std::max(length, kLeastStep * box.diagonal().norm());
+    part_ = surface_part(surfaces_.mesh(), feet, box, longest, kMostFaces);
+    classify(kOnOutline * length);
+  }
+
+  [[nodiscard]] const SurfacePart& part() const { return part_; }
+
+  /// A disk of faces of the part; empty where there is none.
+  /// \param ring  gets the vertices around it
+  std::vector<Index> disk(Polygon& ring) {
+    for (int i = 0; i < kMostClosings; ++i) {
+      std::set<Index> over = largest_component();
+      if (over.empty()) return {};
+      add_enclosed(over, [&](Index f, const auto& visit) {
+        for (const Index g : part_.neighbours[f]) visit(g);
+      });
+      std::vector<Polygon> corners;
+      for (const Index f : over) corners.emplace_back(part_.faces[f].begin(), part_.faces[f].end());
+      DiskOutline outline = disk_outline(corners);
+      if (!outline.ring.empty()) {
+        ring = std::move(outline.ring);
+        return {over.begin(), over.end()};
+      }
+      if (outline.pinched.empty()) return {};
+      for (const Index v : outline.pinched) is_inside_[v] = 0;
+    }
+    return {};
+  }
+
+ private:
+  [[nodiscard]] double side(const Polygon& polygon, std::size_t i) const {
+    const Vec3& p = surfaces_.positions()[polygon[i]];
+    return (surfaces_.positions()[polygon[(i + 1) % polygon.size()]] - p).norm();
+  }
+
+  /// Inside are vertices of the part that are nearer to the patch than to the cells around, of
+  /// those that face the same way. \param margin  distance from the outline, as seen along the
+  /// normal
+  void classify(double margin) {
+    std::vector<Vec3> normal(part_.positions.size(), Vec3::Zero());
+    for (std::size_t f = 0; f < part_.faces.size(); ++f) {
+      const Vec3 own = surfaces_.input_normals()[part_.parent[f]];
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3& p = part_.positions[part_.faces[f][i]];
+        normal[part_.faces[f][i]] +=
+            angle_between(part_.positions[part_.faces[f][(i + 1) % 3]] - p,
+                          part_.positions[part_.faces[f][(i + 2) % 3]] - p) *
+            own;
+      }
+    }
+    is_inside_.assign(part_.positions.size(), 0);
+    for (std::size_t v = 0; v < is_inside_.size(); ++v) {
+      const Vec3& p = part_.positions[v];
+      const auto distance = [&](std::uint8_t is_of_patch) {
+        return nearest_
+            ->closest_if(p, std::numeric_limits<double>::infinity(),
+                         [&](Index t) {
+                           return is_of_patch_[t] == is_of_patch && normals_[t].dot(normal[v]) > 0;
+                         })
+            .distance;
+      };
+      const double inside = distance(1);
+      is_inside_[v] = std::hypot(inside, margin) < distance(0) ? 1 : 0;
+    }
+  }
+
+  /// The most faces over the patch that are joined by edges.
+  [[nodiscard]] std::set<Index> largest_component() const {
+    const auto is_over = [&](Index f) {
+      return std::ranges::all_of(part_.faces[f], [&](Index v) { return is_inside_[v] != 0; });
+    };
+    std::vector<Index> largest;
+    std::unordered_set<Index> seen;
+    for (Index f = 0; f < static_cast<Index>(part_.faces.size()); ++f) {
+      if (!is_over(f) || !seen.insert(f).second) continue;
+      std::vector<Index> component = {f};
+      for (std::size_t i = 0; i < component.size(); ++i) {
+        for (const Index g : part_.neighbours[component[i]]) {
+          if (g != kNone && is_over(g) && seen.insert(g).second) component.push_back(g);
+        }
+      }
+      if (component.size() > largest.size()) largest = std::move(component);
+    }
+    return {largest.begin(), largest.end()};
+  }
+
+  const ComparedSurfaces& surfaces_;
+  SurfaceDistance::Triangles triangles_;   ///< of the patch and the cells around
+  std::vector<std::uint8_t> is_of_patch_;  ///< [triangles] 0 or 1
+  std::vector<Vec3> normals_;              ///< [triangles]
+  std::optional<SurfaceDistance> nearest_;
+  SurfacePart part_;
+  std::vector<std::uint8_t> is_inside_;  ///< [V of the part] 0 or 1
+};
+
+InlayCutter::InlayCutter(const ComparedSurfaces& surfaces, const QuadMesh& quads)
+    : surfaces_(surfaces),
+      quads_(quads),
+      lines_(surfaces.mesh()),
+      cells_around_(quads.mesh.positions.size()) {
+  for (Index f = 0; f < quads.mesh.face_count(); ++f) {
+    for (const Index v : quads.mesh.face(f)) cells_around_[v].push_back(f);
+  }
+}
+
+void InlayCutter::add_around(Index vertex, std::set<Index>& cells) const {
+  cells.insert(cells_around_[vertex].begin(), cells_around_[vertex].end());
+}
+
+void InlayCutter::add_ring(std::set<Index>& cells) const {
+  for (const Index f : std::vector<Index>(cells.begin(), cells.end())) {
+    for (const Index v : quads_.mesh.face(f)) add_around(v, cells);
+  }
+}
+
+/// The other cell at an edge of a cell; kNone at the boundary.
+Index InlayCutter::neighbour(Index cell, Index a, Index b) const {
+  for (const Index f : cells_around_[a]) {
+    if (f != cell && std::ranges::binary_search(cells_around_[b], f)) return f;
+  }
+  return kNone;
+}
+
+std::optional<InlayCutter::Patch> InlayCutter::disk_of(std::set<Index> cells) const {
+  const auto for_neighbours = [&](Index f, const auto& visit) {
+    const std::span<const Index> face = quads_.mesh.face(f);
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      visit(neighbour(f, face[i], face[(i + 1) % face.size()]));
+    }
+  };
+  for (int i = 0; i < kMostClosings; ++i) {
+    add_enclosed(cells, for_neighbours);
+    std::vector<Polygon> faces;
+    bool is_at_boundary = false;
+    for (const Index f : cells) {
+      faces.emplace_back(quads_.mesh.face(f).begin(), quads_.mesh.face(f).end());
+      for_neighbours(f, [&](Index g) { is_at_boundary = is_at_boundary || g == kNone; });
+    }
+    if (is_at_boundary) return std::nullopt;
+    DiskOutline outline = disk_outline(faces);
+    if (!outline.ring.empty()) return Patch{{cells.begin(), cells.end()}, std::move(outline.ring)};
+    if (outline.pinched.empty()) return std::nullopt;
+    for (const Index v : outline.pinched) add_around(v, cells);
+  }
+  return std::nullopt;
+}
+
+/// Joins an inlay's outline to the ring of points around its faces.
+/// \return whether that could be
+bool InlayCutter::add_band(const std::vector<Index>& ring, Inlay& inlay) const {
+  const std::size_t outer = inlay.outline.size();
+  if (outer * ring.size() > kMostBandEdges) return false;
+  const auto cost = [&](std::size_t i, std::size_t j) {
+    const Vec3& p = surfaces_.positions()[inlay.outline[i]];
+    const SurfacePoint& point = inlay.points[ring[j]];
+    const Vec3 q = place_of(surfaces_.mesh(), point);
+    const double off = surfaces_.input().closest(0.5 * (p + q)).distance;
+    const double sum = (p - q).squaredNorm() + kOffCost * off * off;
+    return lines_.has_along(foot_of(inlay.outline[i]), point) ? kAlongLine * sum : sum;
+  };
+  std::set<std::array<Index, 2>> across;
+  for (std::array<Index, 3> triangle : fill_band(outer, ring.size(), cost)) {
+    for (Index& v : triangle) {
+      if (v >= static_cast<Index>(outer)) v = static_cast<Index>(outer) + ring[v - outer];
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index a = triangle[i];
+      const Index b = triangle[(i + 1) % 3];
+      const bool is_outward = a >= static_cast<Index>(outer) && b < static_cast<Index>(outer);
+      // From one corner all around the other polygon: an edge would have four triangles.
+      if (is_outward && !across.insert({a, b}).second) return false;
+    }
+    inlay.faces.push_back(triangle);
+  }
+  return true;
+}
+
+std::optional<Inlay> InlayCutter::cut(const std::set<Index>& cells) const {
+  std::optional<Patch> patch = disk_of(cells);
+  if (!patch) return std::nullopt;
+  Cover cover(*this, *patch);
+  Polygon ring;
+  const std::vector<Index> faces = cover.disk(ring);
+  if (faces.empty()) return std::nullopt;
+  const SurfacePart& part = cover.part();
+  Inlay inlay{std::move(patch->cells), std::move(patch->outline), {}, {}};
+  std::map<Index, Index> number;  // of the part's vertices that are used
+  for (const Index f : faces) {
+    std::array<Index, 3> face = part.faces[f];
+    for (Index& v : face) {
+      const auto [at, is_new] = number.try_emplace(v, static_cast<Index>(inlay.points.size()));
+      if (is_new) inlay.points.push_back(part.points[v]);
+      v = static_cast<Index>(inlay.outline.size()) + at->second;
+    }
+    inlay.faces.push_back(face);
+  }
+  for (Index& v : ring) v = number.at(v);
+  if (!add_band(ring, inlay)) return std::nullopt;
+  return inlay;
+}
+
+}  // namespace strake

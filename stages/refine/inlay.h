@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "common/core/poly_mesh.h"
+#include "common/geometry/cell_error/compared_surfaces.h"
+#include "common/geometry/surface_lines.h"
+#include "common/geometry/surface_point.h"
+
+namespace strake {
+
+/// Faces of the input in place of a disk of cells, with a band of triangles around them.
+struct Inlay {
+  std::vector<Index> cells;          ///< of the result, that go; ascending
+  std::vector<Index> outline;        ///< vertices of the result around them, counter-clockwise
+  std::vector<SurfacePoint> points;  ///< of the input, for new vertices
+  /// Corners below `outline.size()` are of the outline, the others of the points.
+  std::vector<std::array<Index, 3>> faces;
+};
+
+/// Cuts inlays.
+class InlayCutter {
+ public:
+  /// \param surfaces, quads  kept by reference; `surfaces` compares `quads`
+  InlayCutter(const ComparedSurfaces& surfaces, const QuadMesh& quads);
+
+  /// The input's faces over some cells, and over what these enclose.
+  ///
+  /// Faces larger than cells are divided. Over the cells lie those whose corners are all nearer to
+  /// them than to the cells around, of cells that face the same way.
+  /// \param cells  of the result
+  /// \return nothing where these cells, or the faces over them, are no disk, or reach a boundary
+  [[nodiscard]] std::optional<Inlay> cut(const std::set<Index>& cells) const;
+
+  /// Adds all cells with a vertex in common.
+  void add_ring(std::set<Index>& cells) const;
+  /// Adds the cells around a vertex of the result.
+  void add_around(Index vertex, std::set<Index>& cells) const;
+
+ private:
+  struct Patch;
+  class Cover;
+
+  [[nodiscard]] SurfacePoint foot_of(Index vertex) const {
+    return {quads_.provenance.face[vertex], quads_.provenance.barycentric[vertex]};
+  }
+  [[nodiscard]] std::optional<Patch> disk_of(std::set<Index> cells) const;
+  [[nodiscard]] Index neighbour(Index cell, Index a, Index b) const;
+  [[nodiscard]] bool add_band(const std::vector<Index>& ring, Inlay& inlay) const;
+
+  const ComparedSurfaces& surfaces_;
+  const QuadMesh& quads_;
+  SurfaceLines lines_;
+  std::vector<std::vector<Index>> cells_around_;  ///< [V]
+};
+
+}  // namespace strake

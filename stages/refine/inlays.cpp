@@ -1,0 +1,352 @@
+#include "stages/refine/inlays.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <iterator>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "common/geometry/cell_error/compared_surfaces.h"
+#include "common/geometry/patch_fill/drop_unused_vertices.h"
+#include "stages/refine/cells_beyond.h"
+#include "stages/refine/inlay.h"
+#include "stages/refine/thin_out.h"
+
+namespace strake {
+namespace {
+
+/// Cells in place of which an inlay may be, and times that inlays grow.
+struct Limits {
+  std::size_t cells;
+  int rounds;
+};
+constexpr Limits kLimitsBeyond = {4000, 16};
+/// Faces that cross may stay, if it takes more.
+constexpr Limits kLimitsCrossing = {1000, 16};
+/// Where more cells are bad, it is not for single places.
+constexpr std::size_t kMostBad = 3000;
+/// Distances by which inlays are thinned out, in tolerances. Those with faults then are by the next
+/// one, or stay as they are.
+constexpr std::array kThinned = {0.8, 0.5, 0.25, 0.05, 0.0};
+
+/// Where an inlay is to be.
+struct Site {
+  std::set<Index> cells;  ///< that it is to take the place of, at least
+  int rings = 0;          ///< of them, about
+  int times_bad = 0;      ///< in turn
+  Inlay inlay = {};
+  std::size_t cut_for = 0;  ///< how many cells there were when it was cut
+};
+
+/// A result with inlays.
+struct Inlaid {
+  QuadMesh quads;
+  std::vector<Index> site;  ///< [F] in whose inlay a face is; kNone: in none
+  std::vector<Index> part;  ///< [F] its number there, or of the result without inlays
+};
+
+/// What is not as it should be.
+struct Faults {
+  std::vector<Index> faces;  ///< ascending
+  bool is_beyond = false;    ///< whether anything is: a place of the input may be near no face
+  [[nodiscard]] bool any() const { return is_beyond || !faces.empty(); }
+};
+
+class Inlays {
+ public:
+  /// \param quads     kept by reference
+  /// \param crossing  finds faces that are faults, too; nullptr: only those beyond the tolerance
+  ///                  are
+  Inlays(ToleranceProof& proof, const QuadMesh& quads, CrossingPlaces* crossing,
+         const Limits& limits)
+      : proof_(proof),
+        base_(quads),
+        crossing_(crossing),
+        limits_(limits),
+        surfaces_(proof.input(), base_),
+        lines_(surfaces_.mesh()),
+        cutter_(surfaces_, base_),
+        is_given_up_(static_cast<std::size_t>(base_.mesh.face_count()), 0) {}
+
+  /// Makes inlays over cells, and lets them grow.
+  /// \return whether there is no fault any more
+  bool grow(const std::vector<Index>& cells) {
+    Inlaid now{base_, {}, {}};
+    now.part.resize(static_cast<std::size_t>(base_.mesh.face_count()));
+    std::iota(now.part.begin(), now.part.end(), 0);
+    now.site.assign(now.part.size(), kNone);
+    Faults bad{cells, true};
+    for (int round = 0; round < limits_.rounds && bad.any(); ++round) {
+      if (!widen(now, bad.faces)) return false;
+      const bool all_cut = cut();
+      if (sites_.empty() || (!all_cut && crossing_ == nullptr)) return false;
+      now = with_inlays();
+      bad = faults(now);
+    }
+    return !bad.any();
+  }
+
+  /// Gives up the inlays that have faults.
+  void drop_bad() {
+    for (;;) {
+      const Inlaid now = with_inlays();
+      const std::vector<char> is_bad = sites_at(now, faults(now).faces);
+      if (std::ranges::find(is_bad, 1) == is_bad.end()) return;
+      std::vector<Site> good;
+      for (std::size_t s = 0; s < sites_.size(); ++s) {
+        if (is_bad[s] == 0) good.push_back(std::move(sites_[s]));
+      }
+      sites_ = std::move(good);
+    }
+  }
+
+  /// Takes vertices out of inlays as long as they get no faults. \pre they have none
+  QuadMesh thinned() {
+    std::vector<std::size_t> level(sites_.size(), 0);
+    const std::vector<Site> full = sites_;
+    for (;;) {
+      for (std::size_t s = 0; s < sites_.size(); ++s) {
+        sites_[s].inlay = full[s].inlay;
+        if (level[s] < kThinned.size()) {
+          thin(sites_[s].inlay, kThinned[level[s]] * proof_.tolerance());
+        }
+      }
+      Inlaid now = with_inlays();
+      const Faults left = faults(now);
+      const std::vector<char> is_bad = sites_at(now, left.faces);
+      const std::vector<std::size_t> before = level;
+      for (std::size_t s = 0; s < sites_.size(); ++s) {
+        if (is_bad[s] != 0) level[s] = std::min(level[s] + 1, kThinned.size());
+      }
+      if (level == before && left.is_beyond) level.assign(level.size(), kThinned.size());
+      if (level == before) return std::move(now.quads);
+    }
+  }
+
+ private:
+  /// Faces beyond the tolerance, and those that cross if that is asked for.
+  Faults faults(const Inlaid& inlaid) {
+    const auto excess = proof_.check(ComparedSurfaces(proof_.input(), inlaid.quads));
+    std::set<Index> faces;
+    for (const Target& t : cells_beyond(proof_.input()->mesh, inlaid.quads, excess, true)) {
+      faces.insert(t.face);
+    }
+    if (crossing_ != nullptr) {
+      const std::vector<Index> cross = crossing_->faces_of(inlaid.quads.mesh);
+      faces.insert(cross.begin(), cross.end());
+    }
+    return {{faces.begin(), faces.end()}, !excess.empty()};
+  }
+
+  /// [sites] 1: one of the faces is a part of its inlay, or beside it.
+  [[nodiscard]] std::vector<char> sites_at(const Inlaid& inlaid,
+                                           const std::vector<Index>& faces) const {
+    std::vector<char> result(sites_.size(), 0);
+    for (const Index f : faces) {
+      if (inlaid.site[f] != kNone) {
+        result[inlaid.site[f]] = 1;
+        continue;
+      }
+      for (std::size_t s = 0; s < sites_.size(); ++s) {
+        if (is_beside(inlaid.part[f], sites_[s])) result[s] = 1;
+      }
+    }
+    return result;
+  }
+
+  /// Whether a cell has a vertex on the outline of an inlay.
+  [[nodiscard]] bool is_beside(Index cell, const Site& site) const {
+    const auto is_of_outline = [&](Index v) {
+      return std::ranges::find(site.inlay.outline, v) != site.inlay.outline.end();
+    };
+    return std::ranges::any_of(base_.mesh.face(cell), is_of_outline);
+  }
+
+  void widen(Site& site) const {
+    cutter_.add_ring(site.cells);
+    ++site.rings;
+  }
+
+  /// Lets sites grow where faces are at their outline, and by half all around where faces are only
+  /// further inside; adds one around each face that is in none. \return whether any grew
+  bool widen(const Inlaid& inlaid, const std::vector<Index>& faces) {
+    std::vector<char> is_bad(sites_.size(), 0);
+    std::vector<std::set<Index>> grown(sites_.size());
+    std::vector<Index> cells;
+    for (const Index f : faces) {
+      if (inlaid.site[f] == kNone) {
+        if (is_given_up_[inlaid.part[f]] == 0) cells.push_back(inlaid.part[f]);
+        continue;
+      }
+      const Inlay& inlay = sites_[inlaid.site[f]].inlay;
+      is_bad[inlaid.site[f]] = 1;
+      for (const Index v : inlay.faces[inlaid.part[f]]) {
+        if (static_cast<std::size_t>(v) >= inlay.outline.size()) continue;
+        cutter_.add_around(inlay.outline[v], grown[inlaid.site[f]]);
+      }
+    }
+    for (std::size_t s = 0; s < grown.size(); ++s) {
+      Site& site = sites_[s];
+      site.times_bad = is_bad[s] != 0 ? site.times_bad + 1 : 0;
+      if (is_bad[s] != 0 && grown[s].empty()) {
+        for (int ring = site.rings / 2; ring >= 0; --ring) widen(site);
+      }
+      for (int ring = 1; ring < site.times_bad; ++ring) cutter_.add_ring(grown[s]);
+      site.cells.merge(grown[s]);
+    }
+    for (const Index cell : cells) {
+      sites_.push_back({.cells = {cell}});
+      widen(sites_.back());
+    }
+    return !cells.empty() || std::ranges::find(is_bad, 1) != is_bad.end();
+  }
+
+  /// Cuts the inlays of all sites, which grow where that takes it; no two of them touch.
+  /// \return whether none had to be given up
+  bool cut() {
+    bool all = true;
+    do {
+      for (Site& site : sites_) {
+        if (site.cells.size() == site.cut_for) continue;
+        std::optional<Inlay> inlay = cutter_.cut(site.cells);
+        for (std::size_t before = 0; !inlay && site.cells.size() > before;) {
+          before = site.cells.size();
+          widen(site);
+          if (site.cells.size() > limits_.cells) break;
+          inlay = cutter_.cut(site.cells);
+        }
+        if (inlay) {
+          site.inlay = std::move(*inlay);
+          site.cut_for = site.cells.size();
+        } else {
+          for (const Index cell : site.cells) is_given_up_[cell] = 1;
+          site.cells.clear();
+          all = false;
+        }
+      }
+      std::erase_if(sites_, [](const Site& site) { return site.cells.empty(); });
+    } while (merge());
+    return all;
+  }
+
+  /// Joins sites whose inlays have a vertex in common. \return whether there were any
+  bool merge() {
+    std::vector<Index> site_of(base_.mesh.positions.size(), kNone);
+    std::vector<Site> merged;
+    for (Site& site : sites_) {
+      std::set<Index> others;
+      for (const Index cell : site.inlay.cells) {
+        for (const Index v : base_.mesh.face(cell)) {
+          if (site_of[v] != kNone) others.insert(site_of[v]);
+        }
+      }
+      std::set<Index> inlaid(site.inlay.cells.begin(), site.inlay.cells.end());
+      for (const Index s : others) {
+        Site& other = merged[s];
+        site.rings = std::max(site.rings, other.rings);
+        site.cells.merge(other.cells);
+        inlaid.insert(other.inlay.cells.begin(), other.inlay.cells.end());
+        other.cells.clear();
+        site.cut_for = 0;
+      }
+      site.inlay.cells.assign(inlaid.begin(), inlaid.end());
+      for (const Index cell : site.inlay.cells) {
+        for (const Index v : base_.mesh.face(cell)) site_of[v] = static_cast<Index>(merged.size());
+      }
+      merged.push_back(std::move(site));
+    }
+    std::erase_if(merged, [](const Site& site) { return site.cells.empty(); });
+    const bool any = merged.size() < sites_.size();
+    sites_ = std::move(merged);
+    return any;
+  }
+
+  void thin(Inlay& inlay, double distance) const {
+    std::vector<Vec3> positions;
+    std::vector<std::uint8_t> stays;
+    for (const Index v : inlay.outline) positions.push_back(surfaces_.positions()[v]);
+    stays.assign(positions.size(), 1);
+    for (const SurfacePoint& point : inlay.points) {
+      positions.push_back(place_of(surfaces_.mesh(), point));
+      stays.push_back(lines_.places(point).empty() ? 0 : 1);
+    }
+    inlay.faces = thin_out(positions, inlay.faces, stays, distance);
+  }
+
+  [[nodiscard]] Inlaid with_inlays() const {
+    Inlaid result;
+    result.quads.mesh_id = base_.mesh_id;
+    QuadMesh& quads = result.quads;
+    quads.mesh.positions = base_.mesh.positions;
+    quads.provenance = base_.provenance;
+    std::vector<char> goes(static_cast<std::size_t>(base_.mesh.face_count()), 0);
+    for (const Site& site : sites_) {
+      for (const Index f : site.inlay.cells) goes[f] = 1;
+    }
+    const auto add_face = [&](std::span<const Index> face, Index site, Index part) {
+      quads.mesh.add_face(face);
+      result.site.push_back(site);
+      result.part.push_back(part);
+    };
+    for (Index f = 0; f < base_.mesh.face_count(); ++f) {
+      if (goes[f] == 0) add_face(base_.mesh.face(f), kNone, f);
+    }
+    for (std::size_t s = 0; s < sites_.size(); ++s) {
+      const Inlay& inlay = sites_[s].inlay;
+      std::vector<Index> number = inlay.outline;
+      for (const SurfacePoint& point : inlay.points) {
+        number.push_back(quads.mesh.vertex_count());
+        quads.mesh.positions.push_back(place_of(surfaces_.mesh(), point) + surfaces_.mesh().origin);
+        quads.provenance.face.push_back(point.face);
+        quads.provenance.barycentric.push_back(point.barycentric);
+        quads.provenance.lines.push_back({kNone, kNone});
+      }
+      for (std::size_t i = 0; i < inlay.faces.size(); ++i) {
+        const auto& [a, b, c] = inlay.faces[i];
+        add_face(std::array{number[a], number[b], number[c]}, static_cast<Index>(s),
+                 static_cast<Index>(i));
+      }
+    }
+    drop_unused_vertices(quads);
+    return result;
+  }
+
+  ToleranceProof& proof_;
+  const QuadMesh& base_;
+  CrossingPlaces* crossing_;
+  Limits limits_;
+  ComparedSurfaces surfaces_;
+  SurfaceLines lines_;
+  InlayCutter cutter_;
+  std::vector<Site> sites_;
+  std::vector<char> is_given_up_;  ///< [F] 1: of a site that could not be cut
+};
+
+}  // namespace
+
+bool inlay_beyond(ToleranceProof& proof, const std::vector<Excess>& excess, QuadMesh& quads) {
+  std::vector<Index> cells;
+  for (const Target& target : cells_beyond(proof.input()->mesh, quads, excess, true)) {
+    cells.push_back(target.face);
+  }
+  if (cells.size() > kMostBad) return false;
+  Inlays inlays(proof, quads, nullptr, kLimitsBeyond);
+  const bool is_within = inlays.grow(cells);
+  if (is_within) quads = inlays.thinned();
+  return is_within;
+}
+
+void inlay_crossing(ToleranceProof& proof, CrossingPlaces& crossing, QuadMesh& quads) {
+  const std::vector<Index> cells = crossing.faces_of(quads.mesh);
+  if (cells.empty() || cells.size() > kMostBad) return;
+  Inlays inlays(proof, quads, &crossing, kLimitsCrossing);
+  if (!inlays.grow(cells)) inlays.drop_bad();
+  QuadMesh result = inlays.thinned();
+  if (!proof.check(ComparedSurfaces(proof.input(), result)).empty()) return;
+  if (crossing.faces_of(result.mesh).size() < cells.size()) quads = std::move(result);
+}
+
+}  // namespace strake

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "common/core/poly_mesh.h"
+#include "common/geometry/cell_error/tolerance_check.h"
+#include "common/geometry/face_crossings/crossing_places.h"
+
+namespace strake {
+
+// Faces of the input in place of cells that lines and dividing do not make good. Beyond [MK04].
+//
+// Around each place a disk of cells goes, and what of the input lies over it takes its place
+// (inlay.h), with a band of triangles between. Where that does not help the disk grows. At last
+// vertices go that the tolerance does not need (thin_out.h).
+
+/// Brings a result within the tolerance.
+/// \param excess  what is beyond, not empty
+/// \return whether it could be; else `quads` is as it was. \post the same topology; attributes are
+///         not carried over
+bool inlay_beyond(ToleranceProof& proof, const std::vector<Excess>& excess, QuadMesh& quads);
+
+/// Makes faces fewer that cross others although the input does not, where that can be done within
+/// the tolerance. \pre all of `quads` is within it. \post likewise, and as for `inlay_beyond`
+void inlay_crossing(ToleranceProof& proof, CrossingPlaces& crossing, QuadMesh& quads);
+
+}  // namespace strake

@@ -1,0 +1,158 @@
+#include "stages/refine/thin_out.h"
+
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <OpenMesh/Tools/Decimater/DecimaterT.hh>
+#include <OpenMesh/Tools/Decimater/ModHausdorffT.hh>
+#include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
+#include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
+#include <algorithm>
+
+#include "common/core/error.h"
+
+namespace strake {
+namespace {
+
+struct Traits : OpenMesh::DefaultTraits {
+  using Point = OpenMesh::Vec3d;
+  using Normal = OpenMesh::Vec3d;
+};
+using Disk = OpenMesh::TriMesh_ArrayKernelT<Traits>;
+
+/// Triangles less high than this share of their longest edge are slivers.
+constexpr double kSliver = 0.03;
+constexpr int kMostTurns = 10;  ///< times that all edges are looked at
+
+/// Allows no new edge between two vertices of the outline: the mesh around may have it.
+template <class MeshT>
+class NoChords : public OpenMesh::Decimater::ModBaseT<MeshT> {
+ public:
+  DECIMATING_MODULE(NoChords, MeshT, NoChords);
+
+  explicit NoChords(MeshT& disk) : Base(disk, true) {}
+
+  float collapse_priority(const CollapseInfo& edge) override {
+    const MeshT& disk = edge.mesh;
+    if (!disk.is_boundary(edge.v1)) return Base::LEGAL_COLLAPSE;
+    for (const auto v : disk.vv_range(edge.v0)) {
+      if (v != edge.v1 && v != edge.vl && v != edge.vr && disk.is_boundary(v)) {
+        return Base::ILLEGAL_COLLAPSE;
+      }
+    }
+    return Base::LEGAL_COLLAPSE;
+  }
+};
+
+/// Around the origin, of size one: OpenMesh takes small triangles for degenerate ones.
+Disk scaled_disk(const std::vector<Vec3>& positions,
+                 const std::vector<std::array<Index, 3>>& triangles, double scale) {
+  Disk disk;
+  disk.request_vertex_status();
+  disk.request_edge_status();
+  disk.request_halfedge_status();
+  disk.request_face_status();
+  disk.request_face_normals();
+  for (const Vec3& position : positions) {
+    const Vec3 p = scale * (position - positions.front());
+    disk.add_vertex({p.x(), p.y(), p.z()});
+  }
+  for (const auto& [a, b, c] : triangles) {
+    const auto face =
+        disk.add_face(Disk::VertexHandle(a), Disk::VertexHandle(b), Disk::VertexHandle(c));
+    if (!face.is_valid()) {
+      throw AlgorithmError("OpenMesh cannot build an inlay; please report this model");
+    }
+  }
+  disk.update_face_normals();
+  return disk;
+}
+
+void decimate(Disk& disk, double distance) {
+  OpenMesh::Decimater::DecimaterT<Disk> decimater(disk);
+  OpenMesh::Decimater::ModQuadricT<Disk>::Handle quadrics;
+  decimater.add(quadrics);
+  decimater.module(quadrics).unset_max_err();
+  OpenMesh::Decimater::ModHausdorffT<Disk>::Handle hausdorff;
+  decimater.add(hausdorff);
+  decimater.module(hausdorff).set_tolerance(distance);
+  OpenMesh::Decimater::ModNormalFlippingT<Disk>::Handle flipping;
+  decimater.add(flipping);
+  NoChords<Disk>::Handle chords;
+  decimater.add(chords);
+  if (!decimater.initialize()) throw AlgorithmError("thinning out does not start; please report");
+  decimater.decimate();
+}
+
+/// Least height of a triangle over its longest edge, as a share of that.
+double height_share(const OpenMesh::Vec3d& a, const OpenMesh::Vec3d& b, const OpenMesh::Vec3d& c) {
+  const double longest = std::max({(b - a).sqrnorm(), (c - b).sqrnorm(), (a - c).sqrnorm()});
+  return longest > 0 ? cross(b - a, c - a).norm() / longest : 0;
+}
+
+/// Whether turning an edge joins two vertices of the outline.
+bool makes_chord(const Disk& disk, OpenMesh::SmartEdgeHandle edge) {
+  return disk.is_boundary(edge.h0().next().to()) && disk.is_boundary(edge.h1().next().to());
+}
+
+/// Whether turning an edge makes the worse of its two triangles better, without a fold.
+bool is_better_turned(const Disk& disk, OpenMesh::SmartEdgeHandle edge) {
+  const auto h = edge.h0();
+  const OpenMesh::Vec3d a = disk.point(h.from());
+  const OpenMesh::Vec3d b = disk.point(h.to());
+  const OpenMesh::Vec3d left = disk.point(h.next().to());
+  const OpenMesh::Vec3d right = disk.point(h.opp().next().to());
+  const OpenMesh::Vec3d normal = cross(b - a, left - a) + cross(a - b, right - b);
+  const bool folds =
+      dot(cross(right - a, left - a), normal) <= 0 || dot(cross(left - b, right - b), normal) <= 0;
+  const double now = std::min(height_share(a, b, left), height_share(b, a, right));
+  const double then = std::min(height_share(a, right, left), height_share(b, left, right));
+  return !folds && now < kSliver && then > now;
+}
+
+/// A vertex on an edge of the triangle beside it makes a sliver with that edge; turned, it divides
+/// that triangle.
+void turn_slivers(Disk& disk) {
+  for (int round = 0; round < kMostTurns; ++round) {
+    bool any = false;
+    for (const auto edge : disk.edges()) {
+      if (disk.is_boundary(edge) || !disk.is_flip_ok(edge) || makes_chord(disk, edge)) continue;
+      const double length = disk.calc_edge_sqr_length(edge);
+      const auto is_longest_of = [&](OpenMesh::SmartHalfedgeHandle h) {
+        return length >= disk.calc_edge_sqr_length(h.next().edge()) &&
+               length >= disk.calc_edge_sqr_length(h.prev().edge());
+      };
+      const bool is_longest = is_longest_of(edge.h0()) || is_longest_of(edge.h1());
+      if (!is_longest || !is_better_turned(disk, edge)) continue;
+      disk.flip(edge);
+      any = true;
+    }
+    if (!any) return;
+  }
+}
+
+}  // namespace
+
+std::vector<std::array<Index, 3>> thin_out(const std::vector<Vec3>& positions,
+                                           const std::vector<std::array<Index, 3>>& triangles,
+                                           const std::vector<std::uint8_t>& stays,
+                                           double distance) {
+  double size = 0;
+  for (const Vec3& p : positions) size = std::max(size, (p - positions.front()).norm());
+  const double scale = 1 / size;
+  Disk disk = scaled_disk(positions, triangles, scale);
+  for (const auto v : disk.vertices()) {
+    disk.status(v).set_locked(stays[v.idx()] != 0 || disk.is_boundary(v));
+  }
+  turn_slivers(disk);
+  if (distance > 0) decimate(disk, scale * distance);
+
+  std::vector<std::array<Index, 3>> result;
+  for (const auto face : disk.faces()) {  // those left; no garbage collection: numbers stay
+    std::array<Index, 3> corners = {};
+    std::size_t i = 0;
+    for (const auto v : disk.fv_range(face)) corners[i++] = v.idx();
+    result.push_back(corners);
+  }
+  return result;
+}
+
+}  // namespace strake

@@ -1,0 +1,258 @@
+#include "stages/refine/inlay.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "common/geometry/cell_error/tolerance_check.h"
+#include "common/geometry/face_crossings/crossing_places.h"
+#include "common/geometry/face_crossings/face_crossings.h"
+#include "common/geometry/poly_topology/poly_topology.h"
+#include "stages/refine/inlays.h"
+#include "stages/refine/surface_part.h"
+#include "stages/refine/thin_out.h"
+#include "tests/support/result_cases.h"
+
+namespace strake {
+namespace {
+
+using support::Case;
+using support::grid;
+using Triangles = std::vector<std::array<Index, 3>>;
+
+double terrain(double x, double y) { return 0.05 * std::sin(9 * x) * std::cos(7 * y); }
+
+/// Terrain with a needle amid a cell of 8 x 8.
+Case needle() {
+  return grid(32, 8, [](double x, double y) {
+    return 0.2 * terrain(x, y) + (std::hypot(x - 0.59375, y - 0.46875) < 0.01 ? 0.4 : 0.0);
+  });
+}
+
+Vec3 area_vector(const std::vector<Vec3>& positions, const std::array<Index, 3>& t) {
+  return (positions[t[1]] - positions[t[0]]).cross(positions[t[2]] - positions[t[0]]) / 2;
+}
+
+double area(const std::vector<Vec3>& positions, const Triangles& triangles) {
+  double sum = 0;
+  for (const auto& t : triangles) sum += area_vector(positions, t).norm();
+  return sum;
+}
+
+std::vector<Vec3> positions_of(const Inlay& inlay, const ComparedSurfaces& surfaces) {
+  std::vector<Vec3> positions;
+  for (const Index v : inlay.outline) positions.push_back(surfaces.positions()[v]);
+  for (const SurfacePoint& p : inlay.points) positions.push_back(place_of(surfaces.mesh(), p));
+  return positions;
+}
+
+TEST(SurfacePart, IsTheSurfaceWithShortEdgesInTheBox) {
+  const Case c = grid(4, 4, terrain);
+  const Eigen::AlignedBox3d box(Vec3(0.3, 0.3, -1), Vec3(0.7, 0.7, 1));
+  const SurfacePart part = surface_part(c.mesh, {10}, box, 0.05, 10000);
+  ASSERT_GT(part.faces.size(), 100u);
+  double of_parents = 0;
+  for (const Index f : std::set<Index>(part.parent.begin(), part.parent.end())) {
+    of_parents += area_vector(c.mesh.positions, c.mesh.faces[f]).norm();
+  }
+  EXPECT_NEAR(area(part.positions, part.faces), of_parents, 1e-12);
+  for (std::size_t v = 0; v < part.points.size(); ++v) {
+    EXPECT_LT((place_of(c.mesh, part.points[v]) - part.positions[v]).norm(), 1e-12);
+  }
+  for (std::size_t f = 0; f < part.faces.size(); ++f) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3& a = part.positions[part.faces[f][i]];
+      const Vec3& b = part.positions[part.faces[f][(i + 1) % 3]];
+      if (box.contains(a) && box.contains(b)) {
+        EXPECT_LE((b - a).norm(), 0.05);
+      }
+      const Index g = part.neighbours[f][i];
+      if (g == kNone) continue;
+      EXPECT_EQ(std::ranges::count(part.neighbours[g], static_cast<Index>(f)), 1);
+      EXPECT_EQ(std::ranges::count(part.faces[g], part.faces[f][i]), 1);
+      EXPECT_EQ(std::ranges::count(part.faces[g], part.faces[f][(i + 1) % 3]), 1);
+    }
+  }
+}
+
+TEST(SurfacePart, IsEmptyWhereItWouldHaveTooManyFaces) {
+  const Case c = grid(4, 4, terrain);
+  const Eigen::AlignedBox3d box(Vec3(0, 0, -1), Vec3(1, 1, 1));
+  EXPECT_TRUE(surface_part(c.mesh, {0}, box, 0.01, 1000).faces.empty());
+}
+
+/// Positions and triangles of a grid over the unit square.
+Case sheet(double bump) {
+  return grid(8, 1, [&](double x, double y) { return x == 0.5 && y == 0.5 ? bump : 0.0; });
+}
+
+TEST(ThinOut, LeavesOnlyWhatTheDistanceNeeds) {
+  for (const auto& [bump, is_kept] : {std::pair{0.2, true}, {0.02, false}}) {
+    const TriMesh mesh = sheet(bump).mesh;
+    const std::vector<std::uint8_t> stays(mesh.positions.size(), 0);
+    const Triangles left = thin_out(mesh.positions, mesh.faces, stays, 0.05);
+    std::set<Index> vertices;
+    for (const auto& t : left) vertices.insert(t.begin(), t.end());
+    const Index middle = 4 * 9 + 4;
+    EXPECT_EQ(vertices.contains(middle), is_kept);
+    EXPECT_LT(vertices.size(), 32u + 20u);  // of 81, the 32 around stay
+    for (Index v = 0; v < 81; ++v) {
+      const bool is_around = v % 9 == 0 || v % 9 == 8 || v / 9 == 0 || v / 9 == 8;
+      if (is_around) {
+        EXPECT_TRUE(vertices.contains(v)) << v;
+      }
+    }
+  }
+}
+
+TEST(ThinOut, JoinsNoTwoVerticesOfTheOutlineAndKeepsWhatStays) {
+  const TriMesh mesh = sheet(0).mesh;
+  std::vector<std::uint8_t> stays(mesh.positions.size(), 0);
+  stays[2 * 9 + 3] = 1;
+  const Triangles left = thin_out(mesh.positions, mesh.faces, stays, 0.05);
+  std::set<std::array<Index, 2>> before;
+  std::set<Index> vertices;
+  for (const auto& t : mesh.faces) {
+    for (std::size_t i = 0; i < 3; ++i) before.insert({t[i], t[(i + 1) % 3]});
+  }
+  const auto is_around = [](Index v) {
+    return v % 9 == 0 || v % 9 == 8 || v / 9 == 0 || v / 9 == 8;
+  };
+  for (const auto& t : left) {
+    vertices.insert(t.begin(), t.end());
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index a = t[i];
+      const Index b = t[(i + 1) % 3];
+      if (!is_around(a) || !is_around(b)) continue;
+      EXPECT_TRUE(before.contains({a, b}) || before.contains({b, a})) << a << " " << b;
+    }
+  }
+  EXPECT_TRUE(vertices.contains(2 * 9 + 3));
+}
+
+TEST(ThinOut, TurnsSliversIntoTheTriangleBeside) {
+  // The fourth vertex lies on the edge of the triangle from 0 to 1, all but.
+  const std::vector<Vec3> positions = {{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, -1e-6, 0}};
+  const Triangles result = thin_out(positions, {{0, 1, 2}, {1, 0, 3}}, {1, 1, 1, 1}, 0);
+  // All four are around it, and the edge from 2 to 3 would join two of them.
+  EXPECT_EQ(result, (Triangles{{0, 1, 2}, {1, 0, 3}}));
+  std::vector<Vec3> around = positions;
+  around.insert(around.end(), {{-1, -1, 0}, {2, -1, 0}, {0.5, 2, 0}});
+  const Triangles disk = {{0, 1, 2}, {1, 0, 3}, {0, 4, 3}, {4, 5, 3}, {5, 1, 3},
+                          {5, 6, 1}, {6, 2, 1}, {6, 0, 2}, {6, 4, 0}};
+  const Triangles turned = thin_out(around, disk, {1, 1, 1, 1, 1, 1, 1}, 0);
+  EXPECT_EQ(turned.size(), disk.size());
+  for (const auto& t : turned) EXPECT_GT(area_vector(around, t).z(), 0.01);
+}
+
+TEST(InlayCutter, PutsTheInputOverCells) {
+  const Case c = grid(32, 8, terrain);
+  const ComparedSurfaces surfaces(c.mesh, c.quads);
+  const InlayCutter cutter(surfaces, c.quads);
+  std::set<Index> cells = {3 * 8 + 4};
+  cutter.add_ring(cells);
+  ASSERT_EQ(cells.size(), 9u);
+  const std::optional<Inlay> inlay = cutter.cut(cells);
+  ASSERT_TRUE(inlay.has_value());
+  EXPECT_EQ(inlay->cells, std::vector<Index>(cells.begin(), cells.end()));
+  EXPECT_EQ(inlay->outline.size(), 12u);
+  // Of the input over the cells nothing is left out, but along the outline: it is as large, ...
+  const std::vector<Vec3> positions = positions_of(*inlay, surfaces);
+  double over = 0;
+  double on_plane = 0;
+  for (const auto& t : inlay->faces) on_plane += area_vector(positions, t).z();
+  for (const auto& t : c.mesh.faces) {
+    Vec3 middle = Vec3::Zero();
+    for (const Index v : t) middle += c.mesh.positions[v] / 3;
+    const bool is_over =
+        std::abs(middle.x() - 0.5625) < 0.1875 && std::abs(middle.y() - 0.4375) < 0.1875;
+    if (is_over) over += area_vector(c.mesh.positions, t).norm();
+  }
+  EXPECT_NEAR(on_plane, 9.0 / 64, 1e-9);
+  EXPECT_NEAR(area(positions, inlay->faces), over, 0.01 * over);
+  // ... and each vertex of it inside is there.
+  std::set<std::array<double, 2>> places;
+  for (std::size_t i = inlay->outline.size(); i < positions.size(); ++i) {
+    places.insert({positions[i].x(), positions[i].y()});
+  }
+  for (int i = 13; i < 24; ++i) {
+    for (int j = 9; j < 20; ++j) {
+      EXPECT_TRUE(places.contains({i / 32.0, j / 32.0})) << i << " " << j;
+    }
+  }
+}
+
+TEST(InlayCutter, CutsNoneAtTheBoundaryOrOfARing) {
+  const Case c = grid(32, 8, terrain);
+  const ComparedSurfaces surfaces(c.mesh, c.quads);
+  const InlayCutter cutter(surfaces, c.quads);
+  EXPECT_FALSE(cutter.cut({0}).has_value());
+  EXPECT_FALSE(cutter.cut({3 * 8 + 3, 3 * 8 + 5}).has_value());  // two disks
+  std::set<Index> ring = {3 * 8 + 4};
+  cutter.add_ring(ring);
+  ring.erase(3 * 8 + 4);
+  const std::optional<Inlay> inlay = cutter.cut(ring);
+  ASSERT_TRUE(inlay.has_value());  // with what it encloses
+  EXPECT_EQ(inlay->cells.size(), 9u);
+}
+
+TEST(Inlays, BringWhatIsBeyondWithinTheTolerance) {
+  const Case c = needle();
+  ToleranceProof proof(std::make_shared<const InputSurface>(c.mesh), 0.004);
+  QuadMesh quads = c.quads;
+  const auto excess = proof.check(ComparedSurfaces(proof.input(), quads));
+  ASSERT_FALSE(excess.empty());
+  ASSERT_TRUE(inlay_beyond(proof, excess, quads));
+  EXPECT_TRUE(check_tolerance(ComparedSurfaces(c.mesh, quads), 0.004).empty());
+  const PolyTopology topology = analyse(quads.mesh);
+  EXPECT_TRUE(topology.is_oriented_manifold());
+  EXPECT_EQ(topology.euler, 1);
+  EXPECT_LT(quads.mesh.vertex_count(), c.mesh.vertex_count());
+  for (Index v = 0; v < quads.mesh.vertex_count(); ++v) {
+    const Vec3 foot = place_of(c.mesh, {quads.provenance.face[v], quads.provenance.barycentric[v]});
+    EXPECT_LT((foot - quads.mesh.positions[v]).norm(), 1e-12);
+  }
+}
+
+TEST(Inlays, LeaveAResultThatTheyCannotMend) {
+  const Case c = grid(32, 1, [](double x, double) { return x * (1 - x); });  // all at the boundary
+  ToleranceProof proof(std::make_shared<const InputSurface>(c.mesh), 0.01);
+  QuadMesh quads = c.quads;
+  const auto excess = proof.check(ComparedSurfaces(proof.input(), quads));
+  ASSERT_FALSE(excess.empty());
+  EXPECT_FALSE(inlay_beyond(proof, excess, quads));
+  EXPECT_EQ(quads.mesh.corners, c.quads.mesh.corners);
+}
+
+TEST(Inlays, MakeFacesThatCrossFewer) {
+  // Over a flat with small waves a vertex lies beyond its neighbours; the outline of the cells
+  // around it crosses itself, so that the vertex cannot just be taken out.
+  Case c = grid(32, 8, [](double x, double y) { return 0.2 * terrain(x, y); });
+  const auto put = [&](Index v, const SurfacePoint& point) {
+    c.quads.provenance.face[v] = point.face;
+    c.quads.provenance.barycentric[v] = point.barycentric;
+    c.quads.mesh.positions[v] = place_of(c.mesh, point);
+  };
+  const SurfacePoint a{c.quads.provenance.face[4 * 9 + 4],
+                       c.quads.provenance.barycentric[4 * 9 + 4]};
+  const SurfacePoint b{c.quads.provenance.face[4 * 9 + 5],
+                       c.quads.provenance.barycentric[4 * 9 + 5]};
+  put(4 * 9 + 4, b);
+  put(4 * 9 + 5, a);
+  CrossingPlaces crossing(c.mesh);
+  ASSERT_FALSE(crossing.faces_of(c.quads.mesh).empty());
+  ToleranceProof proof(std::make_shared<const InputSurface>(c.mesh), 0.02);
+  QuadMesh quads = c.quads;
+  ASSERT_TRUE(proof.check(ComparedSurfaces(proof.input(), quads)).empty());
+  inlay_crossing(proof, crossing, quads);
+  EXPECT_TRUE(crossing.faces_of(quads.mesh).empty());
+  EXPECT_TRUE(check_tolerance(ComparedSurfaces(c.mesh, quads), 0.02).empty());
+  EXPECT_TRUE(analyse(quads.mesh).is_oriented_manifold());
+  EXPECT_EQ(analyse(quads.mesh).euler, 1);
+}
+
+}  // namespace
+}  // namespace strake
