@@ -21,7 +21,7 @@ namespace {
 /// Times that faces are made anew: where that is beyond the tolerance they stay the next time.
 constexpr int kMostRefills = 4;
 /// Times that a result with odd faces paired is proven.
-constexpr int kMostPairings = 16;
+constexpr int kMostPairings = 80;
 
 /// The changes that bring faces beyond the tolerance, or to cross others.
 /// \param change_of_face  [F of the result]

@@ -26,11 +26,13 @@ struct Limits {
 constexpr Limits kLimitsBeyond = {4000, 16};
 /// Faces that cross may stay, if it takes more.
 constexpr Limits kLimitsCrossing = {1000, 16};
+/// Faces of an inlay, for each cell that goes, with which faces that cross are not worth it.
+constexpr std::size_t kMostFacesPerCell = 4;
 /// Where more cells are bad, it is not for single places.
 constexpr std::size_t kMostBad = 3000;
 /// Distances by which inlays are thinned out, in tolerances. Those with faults then are by the next
 /// one, or stay as they are.
-constexpr std::array kThinned = {0.8, 0.5, 0.25, 0.05, 0.0};
+constexpr std::array kThinned = {0.8, 0.5, 0.25, 0.05};
 
 /// Where an inlay is to be.
 struct Site {
@@ -103,8 +105,15 @@ class Inlays {
     }
   }
 
+  /// Gives up the inlays that have many faces for what they take the place of.
+  void drop_large() {
+    std::erase_if(sites_, [](const Site& site) {
+      return site.inlay.faces.size() > kMostFacesPerCell * site.inlay.cells.size();
+    });
+  }
+
   /// Takes vertices out of inlays as long as they get no faults. \pre they have none
-  QuadMesh thinned() {
+  void thin() {
     std::vector<std::size_t> level(sites_.size(), 0);
     const std::vector<Site> full = sites_;
     for (;;) {
@@ -114,7 +123,7 @@ class Inlays {
           thin(sites_[s].inlay, kThinned[level[s]] * proof_.tolerance());
         }
       }
-      Inlaid now = with_inlays();
+      const Inlaid now = with_inlays();
       const Faults left = faults(now);
       const std::vector<char> is_bad = sites_at(now, left.faces);
       const std::vector<std::size_t> before = level;
@@ -122,9 +131,12 @@ class Inlays {
         if (is_bad[s] != 0) level[s] = std::min(level[s] + 1, kThinned.size());
       }
       if (level == before && left.is_beyond) level.assign(level.size(), kThinned.size());
-      if (level == before) return std::move(now.quads);
+      if (level == before) return;
     }
   }
+
+  /// The result with the inlays there are.
+  [[nodiscard]] QuadMesh result() const { return with_inlays().quads; }
 
  private:
   /// Faces beyond the tolerance, and those that cross if that is asked for.
@@ -335,7 +347,10 @@ bool inlay_beyond(ToleranceProof& proof, const std::vector<Excess>& excess, Quad
   if (cells.size() > kMostBad) return false;
   Inlays inlays(proof, quads, nullptr, kLimitsBeyond);
   const bool is_within = inlays.grow(cells);
-  if (is_within) quads = inlays.thinned();
+  if (is_within) {
+    inlays.thin();
+    quads = inlays.result();
+  }
   return is_within;
 }
 
@@ -344,7 +359,9 @@ void inlay_crossing(ToleranceProof& proof, CrossingPlaces& crossing, QuadMesh& q
   if (cells.empty() || cells.size() > kMostBad) return;
   Inlays inlays(proof, quads, &crossing, kLimitsCrossing);
   if (!inlays.grow(cells)) inlays.drop_bad();
-  QuadMesh result = inlays.thinned();
+  inlays.thin();
+  inlays.drop_large();
+  QuadMesh result = inlays.result();
   if (!proof.check(ComparedSurfaces(proof.input(), result)).empty()) return;
   if (crossing.faces_of(result.mesh).size() < cells.size()) quads = std::move(result);
 }

@@ -2,6 +2,7 @@
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
+#include <OpenMesh/Tools/Decimater/ModAspectRatioT.hh>
 #include <OpenMesh/Tools/Decimater/ModHausdorffT.hh>
 #include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
@@ -18,8 +19,10 @@ struct Traits : OpenMesh::DefaultTraits {
 };
 using Disk = OpenMesh::TriMesh_ArrayKernelT<Traits>;
 
-/// Triangles less high than this share of their longest edge are slivers.
-constexpr double kSliver = 0.03;
+/// Largest ratio of sides that a collapse may lead to.
+constexpr float kLargestAspect = 4;
+/// Share of the distance by which turning an edge may move the surface.
+constexpr double kLargestGap = 0.25;
 constexpr int kMostTurns = 10;  ///< times that all edges are looked at
 
 /// Allows no new edge between two vertices of the outline: the mesh around may have it.
@@ -76,6 +79,9 @@ void decimate(Disk& disk, double distance) {
   decimater.module(hausdorff).set_tolerance(distance);
   OpenMesh::Decimater::ModNormalFlippingT<Disk>::Handle flipping;
   decimater.add(flipping);
+  OpenMesh::Decimater::ModAspectRatioT<Disk>::Handle shapes;
+  decimater.add(shapes);
+  decimater.module(shapes).set_aspect_ratio(kLargestAspect);
   NoChords<Disk>::Handle chords;
   decimater.add(chords);
   if (!decimater.initialize()) throw AlgorithmError("thinning out does not start; please report");
@@ -94,7 +100,8 @@ bool makes_chord(const Disk& disk, OpenMesh::SmartEdgeHandle edge) {
 }
 
 /// Whether turning an edge makes the worse of its two triangles better, without a fold.
-bool is_better_turned(const Disk& disk, OpenMesh::SmartEdgeHandle edge) {
+/// \param gap  how far the two diagonals may be apart
+bool is_better_turned(const Disk& disk, OpenMesh::SmartEdgeHandle edge, double gap) {
   const auto h = edge.h0();
   const OpenMesh::Vec3d a = disk.point(h.from());
   const OpenMesh::Vec3d b = disk.point(h.to());
@@ -105,23 +112,19 @@ bool is_better_turned(const Disk& disk, OpenMesh::SmartEdgeHandle edge) {
       dot(cross(right - a, left - a), normal) <= 0 || dot(cross(left - b, right - b), normal) <= 0;
   const double now = std::min(height_share(a, b, left), height_share(b, a, right));
   const double then = std::min(height_share(a, right, left), height_share(b, left, right));
-  return !folds && now < kSliver && then > now;
+  const OpenMesh::Vec3d across = cross(b - a, right - left);
+  const bool is_flat = std::abs(dot(left - a, across)) <= gap * across.norm();
+  return is_flat && !folds && then > now;
 }
 
-/// A vertex on an edge of the triangle beside it makes a sliver with that edge; turned, it divides
-/// that triangle.
-void turn_slivers(Disk& disk) {
+/// Turns edges for better triangles. A vertex on an edge of the triangle beside it makes a sliver
+/// with that edge; turned, it divides that triangle.
+void turn_edges(Disk& disk, double gap) {
   for (int round = 0; round < kMostTurns; ++round) {
     bool any = false;
     for (const auto edge : disk.edges()) {
       if (disk.is_boundary(edge) || !disk.is_flip_ok(edge) || makes_chord(disk, edge)) continue;
-      const double length = disk.calc_edge_sqr_length(edge);
-      const auto is_longest_of = [&](OpenMesh::SmartHalfedgeHandle h) {
-        return length >= disk.calc_edge_sqr_length(h.next().edge()) &&
-               length >= disk.calc_edge_sqr_length(h.prev().edge());
-      };
-      const bool is_longest = is_longest_of(edge.h0()) || is_longest_of(edge.h1());
-      if (!is_longest || !is_better_turned(disk, edge)) continue;
+      if (!is_better_turned(disk, edge, gap)) continue;
       disk.flip(edge);
       any = true;
     }
@@ -142,8 +145,10 @@ std::vector<std::array<Index, 3>> thin_out(const std::vector<Vec3>& positions,
   for (const auto v : disk.vertices()) {
     disk.status(v).set_locked(stays[v.idx()] != 0 || disk.is_boundary(v));
   }
-  turn_slivers(disk);
-  if (distance > 0) decimate(disk, scale * distance);
+  const double gap = kLargestGap * scale * distance;
+  turn_edges(disk, gap);
+  decimate(disk, scale * distance);
+  turn_edges(disk, gap);
 
   std::vector<std::array<Index, 3>> result;
   for (const auto face : disk.faces()) {  // those left; no garbage collection: numbers stay

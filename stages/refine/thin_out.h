@@ -10,11 +10,10 @@ namespace strake {
 
 /// Takes vertices out of a disk of triangles, each merged into a neighbour, as long as all that
 /// went are within a distance of what is left (OpenMesh's quadrics and Hausdorff distance), and
-/// turns the longest edges of slivers.
-/// \param positions  [V] any length unit
-/// \param stays      [V] 1: vertices that stay; those on the outline do in any case, and no edge
+/// turns edges where that makes better triangles. \param positions  [V] any length unit \param
+/// stays      [V] 1: vertices that stay; those on the outline do in any case, and no edge
 ///                   is made between two of these
-/// \param distance   in the unit of positions; 0: no vertices are taken out
+/// \param distance   in the unit of positions, positive
 /// \return the triangles that are left
 /// \throw AlgorithmError where OpenMesh does not take them
 std::vector<std::array<Index, 3>> thin_out(const std::vector<Vec3>& positions,

@@ -105,7 +105,10 @@ std::size_t cancel_superseded(const std::vector<QueuedTask>& queue, const Store&
 
 std::vector<std::string> submit_to_slurm(const fs::path& scripts) {
   const Answer answer = ask({(scripts / kSubmitScript).string()});
-  if (answer.exit_code != 0) throw InputError("sbatch refused a job: " + answer.text());
+  if (answer.exit_code != 0) {
+    throw InputError(
+        fmt::format("sbatch refused a job (exit code {}): {}", answer.exit_code, answer.text()));
+  }
   std::vector<std::string> jobs;
   for (const std::string& line : answer.lines) {
     const std::string first = line.substr(0, line.find(' '));

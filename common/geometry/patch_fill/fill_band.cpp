@@ -4,11 +4,14 @@
 #include <cstdint>
 #include <limits>
 
+#include "common/core/error.h"
+
 namespace strake {
 
 std::vector<std::array<Index, 3>> fill_band(
     std::size_t outer, std::size_t inner,
     const std::function<double(std::size_t, std::size_t)>& cost) {
+  if (outer < 3 || inner < 3) throw PreconditionError("a polygon has three corners or more");
   std::vector<double> edges(outer * inner);
   for (std::size_t i = 0; i < outer; ++i) {
     for (std::size_t j = 0; j < inner; ++j) edges[i * inner + j] = cost(i, j);

@@ -16,7 +16,8 @@ namespace strake {
 /// \param outer, inner  numbers of corners, at least 3 each; both go around in the same sense
 /// \param cost          not negative, of an edge from a corner of the outer to one of the inner
 /// \return outer + inner triangles in the sense of the polygons, of corners: the outer ones from 0
-///         on, and the inner ones from `outer` on. Cost and memory O(outer inner)
+///         on, and the inner ones from `outer` on. \throw PreconditionError for fewer corners
+/// Cost and memory O(outer inner).
 std::vector<std::array<Index, 3>> fill_band(
     std::size_t outer, std::size_t inner,
     const std::function<double(std::size_t, std::size_t)>& cost);
