@@ -26,8 +26,10 @@ struct Limits {
 constexpr Limits kLimitsBeyond = {4000, 16};
 /// Faces that cross may stay, if it takes more.
 constexpr Limits kLimitsCrossing = {1000, 16};
-/// Faces of an inlay, for each cell that goes, with which faces that cross are not worth it.
+/// Faces of an inlay that are not worth it, for faces that cross: for each cell that goes, or as a
+/// share of all cells, whatever is more.
 constexpr std::size_t kMostFacesPerCell = 4;
+constexpr double kMostFaces = 0.02;
 /// Where more cells are bad, it is not for single places.
 constexpr std::size_t kMostBad = 3000;
 /// Distances by which inlays are thinned out, in tolerances. Those with faults then are by the next
@@ -107,8 +109,9 @@ class Inlays {
 
   /// Gives up the inlays that have many faces for what they take the place of.
   void drop_large() {
-    std::erase_if(sites_, [](const Site& site) {
-      return site.inlay.faces.size() > kMostFacesPerCell * site.inlay.cells.size();
+    const auto few = static_cast<std::size_t>(kMostFaces * base_.mesh.face_count());
+    std::erase_if(sites_, [&](const Site& site) {
+      return site.inlay.faces.size() > std::max(few, kMostFacesPerCell * site.inlay.cells.size());
     });
   }
 

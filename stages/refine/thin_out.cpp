@@ -7,6 +7,8 @@
 #include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "common/core/error.h"
 
@@ -46,8 +48,9 @@ class NoChords : public OpenMesh::Decimater::ModBaseT<MeshT> {
 };
 
 /// Around the origin, of size one: OpenMesh takes small triangles for degenerate ones.
-Disk scaled_disk(const std::vector<Vec3>& positions,
-                 const std::vector<std::array<Index, 3>>& triangles, double scale) {
+/// \return nothing where it does not take them as a disk
+std::optional<Disk> scaled_disk(const std::vector<Vec3>& positions,
+                                const std::vector<std::array<Index, 3>>& triangles, double scale) {
   Disk disk;
   disk.request_vertex_status();
   disk.request_edge_status();
@@ -61,9 +64,7 @@ Disk scaled_disk(const std::vector<Vec3>& positions,
   for (const auto& [a, b, c] : triangles) {
     const auto face =
         disk.add_face(Disk::VertexHandle(a), Disk::VertexHandle(b), Disk::VertexHandle(c));
-    if (!face.is_valid()) {
-      throw AlgorithmError("OpenMesh cannot build an inlay; please report this model");
-    }
+    if (!face.is_valid()) return std::nullopt;
   }
   disk.update_face_normals();
   return disk;
@@ -84,7 +85,7 @@ void decimate(Disk& disk, double distance) {
   decimater.module(shapes).set_aspect_ratio(kLargestAspect);
   NoChords<Disk>::Handle chords;
   decimater.add(chords);
-  if (!decimater.initialize()) throw AlgorithmError("thinning out does not start; please report");
+  if (!decimater.initialize()) throw AlgorithmError("decimation does not start; please report");
   decimater.decimate();
 }
 
@@ -94,9 +95,12 @@ double height_share(const OpenMesh::Vec3d& a, const OpenMesh::Vec3d& b, const Op
   return longest > 0 ? cross(b - a, c - a).norm() / longest : 0;
 }
 
-/// Whether turning an edge joins two vertices of the outline.
-bool makes_chord(const Disk& disk, OpenMesh::SmartEdgeHandle edge) {
-  return disk.is_boundary(edge.h0().next().to()) && disk.is_boundary(edge.h1().next().to());
+/// Whether an edge may be turned: it is none between vertices that stay, which may be part of a
+/// line, and turned it does not join two vertices of the outline.
+bool may_be_turned(const Disk& disk, OpenMesh::SmartEdgeHandle edge) {
+  const bool stays = disk.status(edge.v0()).locked() && disk.status(edge.v1()).locked();
+  return !stays && disk.is_flip_ok(edge) &&
+         !(disk.is_boundary(edge.h0().next().to()) && disk.is_boundary(edge.h1().next().to()));
 }
 
 /// Whether turning an edge makes the worse of its two triangles better, without a fold.
@@ -123,7 +127,7 @@ void turn_edges(Disk& disk, double gap) {
   for (int round = 0; round < kMostTurns; ++round) {
     bool any = false;
     for (const auto edge : disk.edges()) {
-      if (disk.is_boundary(edge) || !disk.is_flip_ok(edge) || makes_chord(disk, edge)) continue;
+      if (disk.is_boundary(edge) || !may_be_turned(disk, edge)) continue;
       if (!is_better_turned(disk, edge, gap)) continue;
       disk.flip(edge);
       any = true;
@@ -141,7 +145,9 @@ std::vector<std::array<Index, 3>> thin_out(const std::vector<Vec3>& positions,
   double size = 0;
   for (const Vec3& p : positions) size = std::max(size, (p - positions.front()).norm());
   const double scale = 1 / size;
-  Disk disk = scaled_disk(positions, triangles, scale);
+  std::optional<Disk> scaled = scaled_disk(positions, triangles, scale);
+  if (!scaled) return triangles;
+  Disk& disk = *scaled;
   for (const auto v : disk.vertices()) {
     disk.status(v).set_locked(stays[v.idx()] != 0 || disk.is_boundary(v));
   }
