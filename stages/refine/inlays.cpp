@@ -30,6 +30,9 @@ constexpr Limits kLimitsCrossing = {1000, 16};
 /// share of all cells, whatever is more.
 constexpr std::size_t kMostFacesPerCell = 4;
 constexpr double kMostFaces = 0.02;
+/// Places of the input whose vertex is searched for over the surface. More are left bare by an
+/// inlay that is wrong altogether; each search would go all over what is bare.
+constexpr std::size_t kMostSearched = 1000;
 /// Where more cells are bad, it is not for single places.
 constexpr std::size_t kMostBad = 3000;
 /// Distances by which inlays are thinned out, in tolerances. Those with faults then are by the next
@@ -146,7 +149,8 @@ class Inlays {
   Faults faults(const Inlaid& inlaid) {
     const auto excess = proof_.check(ComparedSurfaces(proof_.input(), inlaid.quads));
     std::set<Index> faces;
-    for (const Target& t : cells_beyond(proof_.input()->mesh, inlaid.quads, excess, true)) {
+    const bool on_surface = excess.size() <= kMostSearched;
+    for (const Target& t : cells_beyond(proof_.input()->mesh, inlaid.quads, excess, on_surface)) {
       faces.insert(t.face);
     }
     if (crossing_ != nullptr) {
