@@ -291,7 +291,9 @@ std::int64_t refine_to_tolerance(const TriMesh& mesh, Refinement& refinement,
     }
     if (round == options.rounds || round - fewest_round == kRoundsInVain) {
       if (options.partly) return round;
+      observer.report("inlaying faces of the input", double(round) / double(options.rounds + 1));
       if (options.rounds > 0 && inlay_beyond(proof, fewest, nearest)) {
+        report.set("refine.places_beyond", std::size_t{0});
         refinement.take(std::move(nearest));
         refinement.finish(proof);
         return round;

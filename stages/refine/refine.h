@@ -30,10 +30,12 @@ struct RefineResult {
 /// new vertices lie on the surface, on feature and boundary lines where the edge does. The cells
 /// around get a corner more, or are divided too where they have too many. Measured and divided
 /// again until all cells are within the tolerance by `check_tolerance`, which no place escapes; or
-/// until the wanted number of vertices is reached. Faces that cross once a tolerance is reached are
-/// made anew (refill_crossing.h) where it allows that. \pre `quads` was made from `mesh` \return
-/// the same surface topology; deterministic for any thread count \throw ToleranceError naming
-/// places where the tolerance is not reached, unless `partly` is set
+/// until the wanted number of vertices is reached. Where dividing does not reach a tolerance faces
+/// of the input take the place of cells (inlays.h). Faces that cross once it is reached are made
+/// anew (refill_crossing.h), or likewise replaced, where it allows that.
+/// \pre `quads` was made from `mesh`
+/// \return the same surface topology; deterministic for any thread count
+/// \throw ToleranceError naming places where the tolerance is not reached, unless `partly` is set
 RefineResult refine_cells(const TriMesh& mesh, const QuadMesh& quads, const RefineOptions& options,
                           Observer& observer);
 

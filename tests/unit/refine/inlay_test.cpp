@@ -12,6 +12,7 @@
 #include "common/geometry/face_crossings/face_crossings.h"
 #include "common/geometry/poly_topology/poly_topology.h"
 #include "stages/refine/inlays.h"
+#include "stages/refine/refine.h"
 #include "stages/refine/surface_part.h"
 #include "stages/refine/thin_out.h"
 #include "tests/support/result_cases.h"
@@ -239,6 +240,22 @@ TEST(Inlays, BringWhatIsBeyondWithinTheTolerance) {
     const Vec3 foot = place_of(c.mesh, {quads.provenance.face[v], quads.provenance.barycentric[v]});
     EXPECT_LT((foot - quads.mesh.positions[v]).norm(), 1e-12);
   }
+}
+
+/// One round of dividing does not reach a needle.
+TEST(Inlays, DoWhatDividingLeaves) {
+  const Case c = needle();
+  RefineOptions options;
+  options.tolerance = Length{0.004, false};
+  options.rounds = 1;
+  SilentObserver observer;
+  const RefineResult result = refine_cells(c.mesh, c.quads, options, observer);
+  EXPECT_TRUE(check_tolerance(ComparedSurfaces(c.mesh, result.quads), 0.004).empty());
+  const auto& entries = result.report.entries();
+  const auto beyond = std::ranges::find(entries, "refine.places_beyond",
+                                        [](const auto& entry) { return entry.first; });
+  ASSERT_NE(beyond, entries.end());
+  EXPECT_EQ(std::get<std::int64_t>(beyond->second), 0);
 }
 
 TEST(Inlays, LeaveAResultThatTheyCannotMend) {
