@@ -10,6 +10,7 @@ namespace strake {
 
 std::vector<Target> cells_beyond(const TriMesh& mesh, const QuadMesh& quads,
                                  const std::vector<Excess>& excess, bool on_surface) {
+  if (excess.empty()) return {};
   std::vector<double> distance(static_cast<std::size_t>(quads.mesh.face_count()), 0);
   const auto note = [&](Index cell, double d) { distance[cell] = std::max(distance[cell], d); };
   std::vector<std::vector<Index>> cells_around(on_surface ? quads.mesh.positions.size() : 0);

@@ -29,7 +29,7 @@ constexpr Limits kLimitsCrossing = {1000, 16};
 /// Faces of an inlay that are not worth it, for faces that cross: for each cell that goes, or as a
 /// share of all cells, whatever is more.
 constexpr std::size_t kMostFacesPerCell = 4;
-constexpr double kMostFaces = 0.02;
+constexpr double kMostFacesShare = 0.02;
 /// Places of the input whose vertex is searched for over the surface. More are left bare by an
 /// inlay that is wrong altogether; each search would go all over what is bare.
 constexpr std::size_t kMostSearched = 1000;
@@ -112,7 +112,7 @@ class Inlays {
 
   /// Gives up the inlays that have many faces for what they take the place of.
   void drop_large() {
-    const auto few = static_cast<std::size_t>(kMostFaces * base_.mesh.face_count());
+    const auto few = static_cast<std::size_t>(kMostFacesShare * base_.mesh.face_count());
     std::erase_if(sites_, [&](const Site& site) {
       return site.inlay.faces.size() > std::max(few, kMostFacesPerCell * site.inlay.cells.size());
     });

@@ -274,7 +274,7 @@ std::int64_t refine_to_tolerance(const TriMesh& mesh, Refinement& refinement,
   std::size_t last = std::numeric_limits<std::size_t>::max();  // places before the last division
   std::vector<Excess> fewest;  // where dividing came nearest, of all rounds
   std::int64_t fewest_round = 0;
-  QuadMesh nearest;  // the result then
+  QuadMesh best;  // the result then
   for (std::int64_t round = 0;; ++round) {
     observer.report("dividing cells", double(round) / double(options.rounds + 1));
     const ComparedSurfaces surfaces(proof.input(), refinement.quads());
@@ -287,14 +287,13 @@ std::int64_t refine_to_tolerance(const TriMesh& mesh, Refinement& refinement,
     if (round == 0 || excess.size() < fewest.size()) {
       fewest = excess;
       fewest_round = round;
-      if (!options.partly) nearest = refinement.quads();
+      if (!options.partly) best = refinement.quads();
     }
     if (round == options.rounds || round - fewest_round == kRoundsInVain) {
       if (options.partly) return round;
-      observer.report("inlaying faces of the input", double(round) / double(options.rounds + 1));
-      if (options.rounds > 0 && inlay_beyond(proof, fewest, nearest)) {
+      if (options.rounds > 0 && inlay_beyond(proof, fewest, best)) {
         report.set("refine.places_beyond", std::size_t{0});
-        refinement.take(std::move(nearest));
+        refinement.take(std::move(best));
         refinement.finish(proof);
         return round;
       }
