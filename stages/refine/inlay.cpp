@@ -6,12 +6,14 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <span>
+#include <tuple>
 #include <unordered_set>
 #include <utility>
 
 #include "common/geometry/angles.h"
-#include "common/geometry/patch_fill/disk_outline.h"
+#include "common/geometry/patch_fill/patch_outline.h"
 #include "common/geometry/patch_fill/fill_band.h"
 #include "common/geometry/surface_distance/surface_distance.h"
 #include "stages/refine/enclosed.h"
@@ -38,10 +40,10 @@ using Polygon = std::vector<Index>;
 
 }  // namespace
 
-/// A disk of cells.
+/// Connected cells.
 struct InlayCutter::Patch {
   std::vector<Index> cells;  ///< ascending
-  Polygon outline;           ///< counter-clockwise
+  PatchOutline outline;
 };
 
 /// The faces of the input over a patch.
@@ -49,7 +51,9 @@ class InlayCutter::Cover {
  public:
   Cover(const InlayCutter& cutter, const Patch& patch) : surfaces_(cutter.surfaces_) {
     std::set<Index> around;
-    for (const Index v : patch.outline) cutter.add_around(v, around);
+    for (const PatchOutline::Path& path : patch.outline.paths) {
+      for (const Index v : path.vertices) cutter.add_around(v, around);
+    }
     around.insert(patch.cells.begin(), patch.cells.end());
     Eigen::AlignedBox3d box;
     std::vector<Index> feet;
@@ -68,9 +72,7 @@ class InlayCutter::Cover {
       }
     }
     nearest_.emplace(surfaces_.positions(), triangles_);
-    double length = 0;
-    for (std::size_t i = 0; i < patch.outline.size(); ++i) length += side(patch.outline, i);
-    length /= static_cast<double>(patch.outline.size());
+    const double length = mean_side(patch.outline);
     const double longest = std::max(length, kLeastStep * box.diagonal().norm());
     part_ = surface_part(surfaces_.mesh(), feet, box, longest, kMostFaces);
     classify(kOnOutline * length);
@@ -78,9 +80,9 @@ class InlayCutter::Cover {
 
   [[nodiscard]] const SurfacePart& part() const { return part_; }
 
-  /// A disk of faces of the part; empty where there is none.
-  /// \param ring  gets the vertices around it
-  std::vector<Index> disk(Polygon& ring) {
+  /// Faces of the part over the patch; empty where there are none.
+  /// \param outline  gets what is around them
+  std::vector<Index> faces(PatchOutline& outline) {
     for (int i = 0; i < kMostClosings; ++i) {
       std::set<Index> over = largest_component();
       if (over.empty()) return {};
@@ -89,21 +91,27 @@ class InlayCutter::Cover {
       });
       std::vector<Polygon> corners;
       for (const Index f : over) corners.emplace_back(part_.faces[f].begin(), part_.faces[f].end());
-      DiskOutline outline = disk_outline(corners);
-      if (!outline.ring.empty()) {
-        ring = std::move(outline.ring);
-        return {over.begin(), over.end()};
-      }
-      if (outline.pinched.empty()) return {};
+      outline = patch_outline(
+          corners, {}, [&](Index a, Index b) { return part_.boundary.contains({a, b}); });
+      if (outline.pinched.empty()) return {over.begin(), over.end()};
       for (const Index v : outline.pinched) is_inside_[v] = 0;
     }
     return {};
   }
 
  private:
-  [[nodiscard]] double side(const Polygon& polygon, std::size_t i) const {
-    const Vec3& p = surfaces_.positions()[polygon[i]];
-    return (surfaces_.positions()[polygon[(i + 1) % polygon.size()]] - p).norm();
+  [[nodiscard]] double mean_side(const PatchOutline& outline) const {
+    double length = 0;
+    std::size_t sides = 0;
+    for (const auto& [path, is_closed] : outline.paths) {
+      const std::size_t n = is_closed ? path.size() : path.size() - 1;
+      for (std::size_t i = 0; i < n; ++i) {
+        const Vec3& p = surfaces_.positions()[path[i]];
+        length += (surfaces_.positions()[path[(i + 1) % path.size()]] - p).norm();
+      }
+      sides += n;
+    }
+    return length / static_cast<double>(sides);
   }
 
   /// Inside are vertices of the part that are nearer to the patch than to the cells around, of
@@ -194,7 +202,7 @@ Index InlayCutter::neighbour(Index cell, Index a, Index b) const {
   return kNone;
 }
 
-std::optional<InlayCutter::Patch> InlayCutter::disk_of(std::set<Index> cells) const {
+std::optional<InlayCutter::Patch> InlayCutter::patch_of(std::set<Index> cells) const {
   const auto for_neighbours = [&](Index f, const auto& visit) {
     const std::span<const Index> face = quads_.mesh.face(f);
     for (std::size_t i = 0; i < face.size(); ++i) {
@@ -204,59 +212,110 @@ std::optional<InlayCutter::Patch> InlayCutter::disk_of(std::set<Index> cells) co
   for (int i = 0; i < kMostClosings; ++i) {
     add_enclosed(cells, for_neighbours);
     std::vector<Polygon> faces;
-    bool is_at_boundary = false;
+    std::set<std::pair<Index, Index>> boundary;
     for (const Index f : cells) {
-      faces.emplace_back(quads_.mesh.face(f).begin(), quads_.mesh.face(f).end());
-      for_neighbours(f, [&](Index g) { is_at_boundary = is_at_boundary || g == kNone; });
+      const std::span<const Index> face = quads_.mesh.face(f);
+      faces.emplace_back(face.begin(), face.end());
+      for (std::size_t k = 0; k < face.size(); ++k) {
+        const Index next = face[(k + 1) % face.size()];
+        if (neighbour(f, face[k], next) == kNone) boundary.emplace(face[k], next);
+      }
     }
-    if (is_at_boundary) return std::nullopt;
-    DiskOutline outline = disk_outline(faces);
-    if (!outline.ring.empty()) return Patch{{cells.begin(), cells.end()}, std::move(outline.ring)};
-    if (outline.pinched.empty()) return std::nullopt;
+    PatchOutline outline = patch_outline(
+        faces, {}, [&](Index a, Index b) { return boundary.contains({a, b}); });
+    if (outline.pinched.empty()) {
+      if (outline.paths.empty()) return std::nullopt;
+      return Patch{{cells.begin(), cells.end()}, std::move(outline)};
+    }
     for (const Index v : outline.pinched) add_around(v, cells);
   }
   return std::nullopt;
 }
 
-/// Joins an inlay's outline to the ring of points around its faces.
+/// Joins a path of an inlay's outline to one around its faces, both closed or both open.
+/// \param outer, inner  corners of the inlay
 /// \return whether that could be
-bool InlayCutter::add_band(const std::vector<Index>& ring, Inlay& inlay) const {
-  const std::size_t outer = inlay.outline.size();
-  if (outer * ring.size() > kMostBandEdges) return false;
+bool InlayCutter::add_band(std::span<const Index> outer, std::span<const Index> inner,
+                           bool is_closed, Inlay& inlay) const {
+  if (outer.size() * inner.size() > kMostBandEdges) return false;
+  if (is_closed && std::min(outer.size(), inner.size()) < 3) return false;
   const auto cost = [&](std::size_t i, std::size_t j) {
-    const Vec3& p = surfaces_.positions()[inlay.outline[i]];
-    const SurfacePoint& point = inlay.points[ring[j]];
+    const Index vertex = inlay.outline[outer[i]];
+    const SurfacePoint& point = inlay.points[inner[j] - static_cast<Index>(inlay.outline.size())];
+    const Vec3& p = surfaces_.positions()[vertex];
     const Vec3 q = place_of(surfaces_.mesh(), point);
     const double off = surfaces_.input().closest(0.5 * (p + q)).distance;
     const double sum = (p - q).squaredNorm() + kOffCost * off * off;
-    return lines_.has_along(foot_of(inlay.outline[i]), point) ? kAlongLine * sum : sum;
+    return lines_.has_along(foot_of(vertex), point) ? kAlongLine * sum : sum;
   };
   std::set<std::array<Index, 2>> across;
-  for (std::array<Index, 3> triangle : fill_band(outer, ring.size(), cost)) {
+  for (std::array<Index, 3> triangle : is_closed ? fill_band(outer.size(), inner.size(), cost)
+                                                 : fill_strip(outer.size(), inner.size(), cost)) {
     for (Index& v : triangle) {
-      if (v >= static_cast<Index>(outer)) v = static_cast<Index>(outer) + ring[v - outer];
+      const auto at = static_cast<std::size_t>(v);
+      v = at < outer.size() ? outer[at] : inner[at - outer.size()];
     }
     for (std::size_t i = 0; i < 3; ++i) {
       const Index a = triangle[i];
       const Index b = triangle[(i + 1) % 3];
-      const bool is_outward = a >= static_cast<Index>(outer) && b < static_cast<Index>(outer);
+      const auto first_point = static_cast<Index>(inlay.outline.size());
       // From one corner all around the other polygon: an edge would have four triangles.
-      if (is_outward && !across.insert({a, b}).second) return false;
+      if (a >= first_point && b < first_point && !across.insert({a, b}).second) return false;
     }
     inlay.faces.push_back(triangle);
   }
   return true;
 }
 
+/// Joins each path of an inlay's outline to the nearest one around its faces.
+/// \param ring  like the outline, its vertices are corners of the inlay
+/// \return whether that could be
+bool InlayCutter::add_bands(const PatchOutline& outline, const PatchOutline& ring,
+                            Inlay& inlay) const {
+  const auto distance = [&](const Polygon& outer, const Polygon& inner) {
+    double sum = 0;
+    for (const Index v : outer) {
+      double least = std::numeric_limits<double>::infinity();
+      for (const Index corner : inner) {
+        const SurfacePoint& point = inlay.points[corner - inlay.outline.size()];
+        const Vec3 way = place_of(surfaces_.mesh(), point) - surfaces_.positions()[v];
+        least = std::min(least, way.squaredNorm());
+      }
+      sum += least;
+    }
+    return sum;
+  };
+  std::vector<PatchOutline::Path> left = ring.paths;
+  Index first = 0;
+  for (const auto& [outer, is_closed] : outline.paths) {
+    auto nearest = left.end();
+    double least = std::numeric_limits<double>::infinity();
+    for (auto path = left.begin(); path != left.end(); ++path) {
+      if (path->is_closed != is_closed) continue;
+      const double now = distance(outer, path->vertices);
+      if (nearest == left.end() || now < least) std::tie(nearest, least) = std::pair{path, now};
+    }
+    std::vector<Index> corners(outer.size());
+    std::iota(corners.begin(), corners.end(), first);
+    first += static_cast<Index>(outer.size());
+    if (!add_band(corners, nearest->vertices, is_closed, inlay)) return false;
+    left.erase(nearest);
+  }
+  return true;
+}
+
 std::optional<Inlay> InlayCutter::cut(const std::set<Index>& cells) const {
-  std::optional<Patch> patch = disk_of(cells);
+  std::optional<Patch> patch = patch_of(cells);
   if (!patch) return std::nullopt;
   Cover cover(*this, *patch);
-  Polygon ring;
-  const std::vector<Index> faces = cover.disk(ring);
-  if (faces.empty()) return std::nullopt;
+  PatchOutline ring;
+  const std::vector<Index> faces = cover.faces(ring);
+  if (faces.empty() || !ring.is_like(patch->outline)) return std::nullopt;
   const SurfacePart& part = cover.part();
-  Inlay inlay{std::move(patch->cells), std::move(patch->outline), {}, {}};
+  Inlay inlay{std::move(patch->cells), {}, {}, {}};
+  for (const PatchOutline::Path& path : patch->outline.paths) {
+    inlay.outline.insert(inlay.outline.end(), path.vertices.begin(), path.vertices.end());
+  }
   std::map<Index, Index> number;  // of the part's vertices that are used
   for (const Index f : faces) {
     std::array<Index, 3> face = part.faces[f];
@@ -267,8 +326,10 @@ std::optional<Inlay> InlayCutter::cut(const std::set<Index>& cells) const {
     }
     inlay.faces.push_back(face);
   }
-  for (Index& v : ring) v = number.at(v);
-  if (!add_band(ring, inlay)) return std::nullopt;
+  for (PatchOutline::Path& path : ring.paths) {
+    for (Index& v : path.vertices) v = static_cast<Index>(inlay.outline.size()) + number.at(v);
+  }
+  if (!add_bands(patch->outline, ring, inlay)) return std::nullopt;
   return inlay;
 }
 

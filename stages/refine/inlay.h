@@ -3,19 +3,23 @@
 #include <array>
 #include <optional>
 #include <set>
+#include <span>
 #include <vector>
 
 #include "common/core/poly_mesh.h"
 #include "common/geometry/cell_error/compared_surfaces.h"
+#include "common/geometry/patch_fill/patch_outline.h"
 #include "common/geometry/surface_lines.h"
 #include "common/geometry/surface_point.h"
 
 namespace strake {
 
-/// Faces of the input in place of a disk of cells, with a band of triangles around them.
+/// Faces of the input in place of a patch of cells, with bands of triangles around them.
 struct Inlay {
-  std::vector<Index> cells;          ///< of the result, that go; ascending
-  std::vector<Index> outline;        ///< vertices of the result around them, counter-clockwise
+  std::vector<Index> cells;  ///< of the result, that go; ascending
+  /// Vertices of the result around them, counter-clockwise; at the boundary those on the way from
+  /// there to there.
+  std::vector<Index> outline;
   std::vector<SurfacePoint> points;  ///< of the input, for new vertices
   /// Corners below `outline.size()` are of the outline, the others of the points.
   std::vector<std::array<Index, 3>> faces;
@@ -32,7 +36,8 @@ class InlayCutter {
   /// Faces larger than cells are divided. Over the cells lie those whose corners are all nearer to
   /// them than to the cells around, of cells that face the same way.
   /// \param cells  of the result
-  /// \return nothing where these cells, or the faces over them, are no disk, or reach a boundary
+  /// The cells may reach the boundary, and go around handles and loops of the boundary.
+  /// \return nothing where the faces over these cells are not connected in the same way
   [[nodiscard]] std::optional<Inlay> cut(const std::set<Index>& cells) const;
 
   /// Adds all cells with a vertex in common.
@@ -47,9 +52,12 @@ class InlayCutter {
   [[nodiscard]] SurfacePoint foot_of(Index vertex) const {
     return {quads_.provenance.face[vertex], quads_.provenance.barycentric[vertex]};
   }
-  [[nodiscard]] std::optional<Patch> disk_of(std::set<Index> cells) const;
+  [[nodiscard]] std::optional<Patch> patch_of(std::set<Index> cells) const;
   [[nodiscard]] Index neighbour(Index cell, Index a, Index b) const;
-  [[nodiscard]] bool add_band(const std::vector<Index>& ring, Inlay& inlay) const;
+  [[nodiscard]] bool add_band(std::span<const Index> outer, std::span<const Index> inner,
+                              bool is_closed, Inlay& inlay) const;
+  [[nodiscard]] bool add_bands(const PatchOutline& outline, const PatchOutline& ring,
+                               Inlay& inlay) const;
 
   const ComparedSurfaces& surfaces_;
   const QuadMesh& quads_;

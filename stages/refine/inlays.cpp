@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <iterator>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -33,6 +34,10 @@ constexpr double kMostFacesShare = 0.02;
 /// Places of the input whose vertex is searched for over the surface. More are left bare by an
 /// inlay that is wrong altogether; each search would go all over what is bare.
 constexpr std::size_t kMostSearched = 1000;
+/// Cells in all of places where no inlay could be cut, after which none grows for that any more.
+constexpr std::size_t kMostInVain = 40000;
+/// Times that inlays grow, for faces that cross, without fewer faults than ever before.
+constexpr int kRoundsInVain = 4;
 /// Where more cells are bad, it is not for single places.
 constexpr std::size_t kMostBad = 3000;
 /// Distances by which inlays are thinned out, in tolerances. Those with faults then are by the next
@@ -86,12 +91,15 @@ class Inlays {
     std::iota(now.part.begin(), now.part.end(), 0);
     now.site.assign(now.part.size(), kNone);
     Faults bad{cells, true};
-    for (int round = 0; round < limits_.rounds && bad.any(); ++round) {
+    std::size_t fewest = std::numeric_limits<std::size_t>::max();
+    int in_vain = 0;
+    for (int round = 0; round < limits_.rounds && bad.any() && in_vain < kRoundsInVain; ++round) {
       if (!widen(now, bad.faces)) return false;
-      const bool all_cut = cut();
-      if (sites_.empty() || (!all_cut && crossing_ == nullptr)) return false;
+      if (!cut() || sites_.empty()) return false;
       now = with_inlays();
       bad = faults(now);
+      in_vain = crossing_ != nullptr && bad.faces.size() >= fewest ? in_vain + 1 : 0;
+      fewest = std::min(fewest, bad.faces.size());
     }
     return !bad.any();
   }
@@ -223,32 +231,39 @@ class Inlays {
     return !cells.empty() || std::ranges::find(is_bad, 1) != is_bad.end();
   }
 
-  /// Cuts the inlays of all sites, which grow where that takes it; no two of them touch.
-  /// \return whether none had to be given up
+  /// Cuts the inlay of a site, which grows as long as there is none.
+  std::optional<Inlay> cut_growing(Site& site) {
+    std::optional<Inlay> inlay = cutter_.cut(site.cells);
+    for (std::size_t before = 0; !inlay && site.cells.size() > before;) {
+      before = site.cells.size();
+      cells_in_vain_ += before;
+      widen(site);
+      if (site.cells.size() > limits_.cells || cells_in_vain_ > kMostInVain) break;
+      inlay = cutter_.cut(site.cells);
+    }
+    return inlay;
+  }
+
+  /// Cuts the inlays of all sites, which grow where that takes it; no two of them touch. Sites are
+  /// given up where there is none, if faces that cross may stay.
+  /// \return false where they may not
   bool cut() {
-    bool all = true;
     do {
       for (Site& site : sites_) {
         if (site.cells.size() == site.cut_for) continue;
-        std::optional<Inlay> inlay = cutter_.cut(site.cells);
-        for (std::size_t before = 0; !inlay && site.cells.size() > before;) {
-          before = site.cells.size();
-          widen(site);
-          if (site.cells.size() > limits_.cells) break;
-          inlay = cutter_.cut(site.cells);
-        }
-        if (inlay) {
+        if (std::optional<Inlay> inlay = cut_growing(site)) {
           site.inlay = std::move(*inlay);
           site.cut_for = site.cells.size();
+        } else if (crossing_ == nullptr) {
+          return false;
         } else {
           for (const Index cell : site.cells) is_given_up_[cell] = 1;
           site.cells.clear();
-          all = false;
         }
       }
       std::erase_if(sites_, [](const Site& site) { return site.cells.empty(); });
     } while (merge());
-    return all;
+    return true;
   }
 
   /// Joins sites whose inlays have a vertex in common. \return whether there were any
@@ -341,6 +356,7 @@ class Inlays {
   SurfaceLines lines_;
   InlayCutter cutter_;
   std::vector<Site> sites_;
+  std::size_t cells_in_vain_ = 0;
   std::vector<char> is_given_up_;  ///< [F] 1: of a site that could not be cut
 };
 

@@ -18,6 +18,7 @@ struct Traits : OpenMesh::DefaultTraits {
   using Point = OpenMesh::Vec3d;
   VertexTraits { SurfacePoint on; };
   FaceTraits { Index parent = kNone; };
+  EdgeTraits { bool is_boundary = false; };  // of the surface, not only of its part
 };
 using Part = OpenMesh::TriMesh_ArrayKernelT<Traits>;
 
@@ -47,9 +48,10 @@ std::set<Index> faces_in(const TriMesh& mesh, const std::vector<Index>& faces,
       if (around.intersects(box) && seen.insert(g).second) queue.push_back(g);
     }
   }
+  // The boundary is no way out: what rises there above the box is a part of it, too.
   add_enclosed(seen, [&](Index f, const auto& visit) {
     for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-      visit(mesh.is_boundary(h) ? kNone : TriMesh::face_of(mesh.twin[h]));
+      if (!mesh.is_boundary(h)) visit(TriMesh::face_of(mesh.twin[h]));
     }
   });
   return seen;
@@ -72,6 +74,11 @@ Part to_openmesh(const TriMesh& mesh, const std::set<Index>& faces) {
     const auto face = part.add_face(vertex[a], vertex[b], vertex[c]);
     if (!face.is_valid()) return {};  // two parts that meet in a vertex
     part.data(face).parent = f;
+    for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+      if (!mesh.is_boundary(h)) continue;
+      const auto side = part.find_halfedge(vertex[mesh.from(h)], vertex[mesh.to(h)]);
+      part.data(part.edge_handle(side)).is_boundary = true;
+    }
   }
   return part;
 }
@@ -122,6 +129,7 @@ SurfacePart surface_part(const TriMesh& mesh, const std::vector<Index>& faces,
     std::size_t i = 0;
     for (const auto h : part.fh_range(face)) {
       corners[i] = h.from().idx();
+      if (part.data(h.edge()).is_boundary) result.boundary.emplace(h.from().idx(), h.to().idx());
       neighbours[i++] = h.opp().is_boundary() ? kNone : h.opp().face().idx();
     }
     result.parent.push_back(part.data(face).parent);

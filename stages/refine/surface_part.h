@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "common/core/tri_mesh.h"
@@ -16,10 +18,12 @@ struct SurfacePart {
   std::vector<std::array<Index, 3>> faces;
   std::vector<Index> parent;                     ///< [F] face of the surface
   std::vector<std::array<Index, 3>> neighbours;  ///< [F] across the side from corner i; kNone: none
+  /// Sides of faces on the boundary of the surface, from corner to corner.
+  std::set<std::pair<Index, Index>> boundary;
 };
 
 /// The part of a surface that is joined to some of its faces and may reach into a box, with what it
-/// encloses; in the box the longest edges are halved until none is longer than a length.
+/// encloses, also against the boundary; in the box the longest edges are halved until none is longer than a length.
 /// \param faces    of the surface
 /// \param longest  model units, positive
 /// \return nothing in it where it would have more than `most` faces

@@ -13,19 +13,16 @@ namespace {
 constexpr Index kMostAttempts = 8;
 /// Faces of all attempts together; one is made of any number.
 constexpr Index kMostFaces = 200000;
-/// Attempts that may leave more than half of the faces that cross.
-constexpr int kPatience = 5;
 /// Where more faces cross the shape is finer than its lines all over.
 constexpr std::size_t kMostPlaces = 1000;
 
 }  // namespace
 
-Attempt part_faces(const Attempt& first, Index faces, const Again& again,
+Attempt part_faces(const Attempt& first, Index faces, int patience, const Again& again,
                    const std::function<void(Attempt&)>& keep) {
   Attempt best = first;
   Attempt last = first;
   bool is_last_best = true;
-  int patience = kPatience;
   const auto is_worth_it = [&] {
     return patience > 0 && !best.places.empty() && best.places.size() <= kMostPlaces;
   };

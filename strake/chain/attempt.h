@@ -23,10 +23,11 @@ using Again = std::function<Attempt(Session, const std::vector<Vec3>& places)>;
 /// closer lines at such faces, as long as that helps.
 /// \param first     does not miss its goal
 /// \param faces     of its result: the more, the fewer attempts
+/// \param patience  attempts that may leave more than half of the faces that cross
 /// \param again     makes and keeps a result like a session's, with closer lines around places
 /// \param keep      keeps one again
 /// \return the attempt that meets its goal with the fewest faces that cross; it is the one kept
-Attempt part_faces(const Attempt& first, Index faces, const Again& again,
+Attempt part_faces(const Attempt& first, Index faces, int patience, const Again& again,
                    const std::function<void(Attempt&)>& keep);
 
 }  // namespace strake

@@ -56,6 +56,10 @@ constexpr double kCloserThere = 0.5;
 /// Times that all lines are, where that is not enough, and at which share.
 constexpr int kCloserLines = 2;
 constexpr double kCloser = 0.6;
+/// Attempts in vain to part faces that cross; within a tolerance the input's own faces have been
+/// tried for them before.
+constexpr int kPatience = 5;
+constexpr int kPatienceWithinTolerance = 2;
 /// Vertices of a result within a tolerance, over those of the input, of which the user is told.
 constexpr Index kExcessive = 2;
 /// Share of the distances of lines around faces that cross.
@@ -408,7 +412,7 @@ void trace_to_count(Session& session, const GoalStages& stages, Counted counted,
     attempt.done.keep(stages.fit);
   };
   const Index faces = first.done.get<QuadMesh>("fitted").mesh.face_count();
-  session = part_faces(first, faces, again, keep).done;
+  session = part_faces(first, faces, kPatience, again, keep).done;
 }
 
 /// A mesh coarser than the tolerance is taken for the polyhedron it is, edge by edge.
@@ -476,7 +480,7 @@ std::string meet_tolerance(Session& session, const GoalStages& stages, const std
     attempt.done.keep(stages.refine);
   };
   const Index faces = first.done.get<QuadMesh>("refined").mesh.face_count();
-  session = part_faces(first, faces, again, keep).done;
+  session = part_faces(first, faces, kPatienceWithinTolerance, again, keep).done;
   warn_of_excess(session);
   return "refined";
 }

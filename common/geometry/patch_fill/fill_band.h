@@ -22,4 +22,11 @@ std::vector<std::array<Index, 3>> fill_band(
     std::size_t outer, std::size_t inner,
     const std::function<double(std::size_t, std::size_t)>& cost);
 
+/// The same between two paths, from the edge between their starts to the one between their ends.
+/// \param outer, inner  numbers of corners, at least 1 each
+/// \return outer + inner - 2 triangles. \throw PreconditionError for no corners
+std::vector<std::array<Index, 3>> fill_strip(
+    std::size_t outer, std::size_t inner,
+    const std::function<double(std::size_t, std::size_t)>& cost);
+
 }  // namespace strake

@@ -15,7 +15,7 @@
 #include "common/geometry/face_crossings/box_tree.h"
 #include "common/geometry/face_crossings/placed_face.h"
 #include "common/geometry/mesh_measures.h"
-#include "common/geometry/patch_fill/disk_outline.h"
+#include "common/geometry/patch_fill/patch_outline.h"
 #include "common/geometry/patch_fill/drop_unused_vertices.h"
 #include "common/geometry/patch_fill/fill_polygon.h"
 #include "common/geometry/patch_fill/join_triangles.h"
@@ -246,17 +246,19 @@ class Refilling {
   Polygon outline_of(const std::vector<Index>& part, Kept kept, std::vector<Index>& pinched) const {
     std::vector<Polygon> faces;
     for (const Index f : part) faces.emplace_back(face(f).begin(), face(f).end());
-    DiskOutline outline =
-        disk_outline(faces, [&](Index a, Index b) { return is_wall(a, b, kept); });
+    PatchOutline outline =
+        patch_outline(faces, [&](Index a, Index b) { return is_wall(a, b, kept); });
     pinched.insert(pinched.end(), outline.pinched.begin(), outline.pinched.end());
-    if (outline.ring.empty() || outline.ring.size() > kMostSides) return {};
-    const std::set<Index> around(outline.ring.begin(), outline.ring.end());
+    if (!outline.is_disk()) return {};
+    Polygon& ring = outline.paths.front().vertices;
+    if (ring.size() > kMostSides) return {};
+    const std::set<Index> around(ring.begin(), ring.end());
     const auto may_go = [&](Index v) {
       return is_touched_[v] == 0 && (around.contains(v) || may_be_lost(v, kept));
     };
     const bool all_may_go = std::ranges::all_of(
         faces, [&](const Polygon& polygon) { return std::ranges::all_of(polygon, may_go); });
-    return all_may_go ? std::move(outline.ring) : Polygon{};
+    return all_may_go ? std::move(ring) : Polygon{};
   }
 
   bool fill_outline(const std::vector<Index>& part, const Polygon& outline, Kept kept,

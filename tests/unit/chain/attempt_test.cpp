@@ -18,9 +18,9 @@ class Attempts {
   explicit Attempts(std::vector<std::size_t> left) : left_(std::move(left)) {}
 
   /// \param faces  of each
-  Attempt part(Index faces) {
+  Attempt part(Index faces, int patience = 5) {
     return part_faces(
-        next(session_), faces,
+        next(session_), faces, patience,
         [&](Session session, const std::vector<Vec3>& places) {
           EXPECT_EQ(places.size(), left_.at(made_ - 1));
           return next(std::move(session));
@@ -64,6 +64,12 @@ TEST(PartFaces, GivesUpAfterFiveThatDoNotAndKeepsTheBest) {
   EXPECT_EQ(attempts.part(100).places.size(), 7u);
   EXPECT_EQ(attempts.again(), 5u);
   EXPECT_EQ(attempts.kept(), 7u);
+}
+
+TEST(PartFaces, HasThePatienceAskedFor) {
+  Attempts attempts({8, 7, 9, 8, 0});
+  EXPECT_EQ(attempts.part(100, 2).places.size(), 7u);
+  EXPECT_EQ(attempts.again(), 2u);
 }
 
 TEST(PartFaces, GivesUpWhereNothingChangesAnyMore) {

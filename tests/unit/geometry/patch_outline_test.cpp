@@ -1,14 +1,16 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
 #include <vector>
 
-#include "common/geometry/patch_fill/disk_outline.h"
+#include "common/core/error.h"
 #include "common/geometry/patch_fill/drop_unused_vertices.h"
 #include "common/geometry/patch_fill/fill_band.h"
+#include "common/geometry/patch_fill/patch_outline.h"
 #include "tests/support/result_cases.h"
 
 namespace strake {
@@ -26,28 +28,71 @@ Faces squares(Index n, const std::vector<Index>& numbers) {
   return faces;
 }
 
-TEST(DiskOutline, GoesAroundADisk) {
-  const DiskOutline outline = disk_outline(squares(3, {0, 1, 3}));
-  EXPECT_EQ(outline.ring, (std::vector<Index>{0, 1, 2, 6, 5, 9, 8, 4}));
+TEST(PatchOutline, GoesAroundADisk) {
+  const PatchOutline outline = patch_outline(squares(3, {0, 1, 3}));
+  ASSERT_TRUE(outline.is_disk());
+  EXPECT_EQ(outline.paths.front().vertices, (std::vector<Index>{0, 1, 2, 6, 5, 9, 8, 4}));
   EXPECT_TRUE(outline.pinched.empty());
 }
 
-TEST(DiskOutline, IsNoneOfARingOrOfTwoDisks) {
-  EXPECT_TRUE(disk_outline(squares(3, {0, 1, 2, 3, 5, 6, 7, 8})).ring.empty());
-  EXPECT_TRUE(disk_outline(squares(4, {0, 3})).ring.empty());
+TEST(PatchOutline, TellsRingsAndTwoDisksFromADisk) {
+  const PatchOutline ring = patch_outline(squares(3, {0, 1, 2, 3, 5, 6, 7, 8}));
+  const PatchOutline disks = patch_outline(squares(4, {0, 3}));
+  const PatchOutline disk = patch_outline(squares(4, {0, 1}));
+  EXPECT_FALSE(ring.is_disk());
+  EXPECT_FALSE(disks.is_disk());
+  EXPECT_EQ(ring.euler, 0);
+  EXPECT_EQ(ring.loops, 2);
+  for (const PatchOutline& a : {ring, disks, disk}) {
+    for (const PatchOutline& b : {ring, disks, disk}) {
+      EXPECT_EQ(a.is_like(b), a.euler == b.euler && a.loops == b.loops);
+    }
+  }
+  EXPECT_TRUE(ring.is_like(patch_outline(squares(4, {0, 1, 2, 4, 6, 8, 9, 10}))));
 }
 
-TEST(DiskOutline, SaysWhereItTouchesItself) {
-  const DiskOutline outline = disk_outline(squares(2, {0, 3}));
-  EXPECT_TRUE(outline.ring.empty());
+TEST(PatchOutline, SaysWhereItTouchesItself) {
+  const PatchOutline outline = patch_outline(squares(2, {0, 3}));
+  EXPECT_FALSE(outline.is_disk());
   EXPECT_EQ(outline.pinched, std::vector<Index>{4});
 }
 
-TEST(DiskOutline, FollowsWalls) {
+TEST(PatchOutline, FollowsWalls) {
   const auto is_wall = [](Index a, Index b) { return std::set{a, b} == std::set<Index>{1, 4}; };
   // The wall in the middle of two squares makes two disks of them.
-  EXPECT_TRUE(disk_outline(squares(2, {0, 1}), is_wall).ring.empty());
-  EXPECT_EQ(disk_outline(squares(2, {0}), is_wall).ring.size(), 4u);
+  EXPECT_FALSE(patch_outline(squares(2, {0, 1}), is_wall).is_disk());
+  EXPECT_EQ(patch_outline(squares(2, {0}), is_wall).paths.front().vertices.size(), 4u);
+}
+
+TEST(PatchOutline, LeavesTheBoundaryOut) {
+  // Of a grid of 3 x 3 squares, vertices 0 to 15, the outside is the boundary.
+  const auto is_outside = [](Index a, Index b) {
+    const auto on = [](Index v) {
+      return std::array{v < 4, v >= 12, v % 4 == 0, v % 4 == 3};
+    };
+    for (std::size_t side = 0; side < 4; ++side) {
+      if (on(a)[side] && on(b)[side]) return true;
+    }
+    return false;
+  };
+  const PatchOutline corner = patch_outline(squares(3, {0}), {}, is_outside);
+  ASSERT_EQ(corner.paths.size(), 1u);
+  EXPECT_FALSE(corner.paths.front().is_closed);
+  EXPECT_EQ(corner.paths.front().vertices, (std::vector<Index>{1, 5, 4}));
+  EXPECT_FALSE(corner.is_disk());
+  const PatchOutline row = patch_outline(squares(3, {3, 4, 5}), {}, is_outside);
+  ASSERT_EQ(row.paths.size(), 2u);
+  std::set<std::vector<Index>> paths;
+  for (const PatchOutline::Path& path : row.paths) paths.insert(path.vertices);
+  EXPECT_EQ(paths, (std::set<std::vector<Index>>{{4, 5, 6, 7}, {11, 10, 9, 8}}));
+  EXPECT_FALSE(corner.is_like(row));
+  EXPECT_TRUE(corner.is_like(patch_outline(squares(3, {7, 8}), {}, is_outside)));
+  EXPECT_TRUE(patch_outline(squares(3, {4}), {}, is_outside).is_disk());
+  const PatchOutline around = patch_outline(squares(3, {0, 1, 2, 3, 5, 6, 7, 8}), {}, is_outside);
+  EXPECT_EQ(around.boundary_loops, 1);
+  ASSERT_EQ(around.paths.size(), 1u);
+  EXPECT_TRUE(around.paths.front().is_closed);
+  EXPECT_EQ(around.paths.front().vertices.size(), 4u);
 }
 
 /// Corners of a regular polygon, turned by an angle.
@@ -109,6 +154,28 @@ TEST(FillBandBetween, TakesTheEdgesThatCostLeast) {
     is_taken = is_taken || (corners.contains(3) && corners.contains(12 + 4));
   }
   EXPECT_TRUE(is_taken);
+}
+
+TEST(FillStrip, CoversWhatIsBetweenTwoPathsOnce) {
+  const auto outer = [](std::size_t i) { return Vec3(double(i), 0, 0); };
+  const auto inner = [](std::size_t j) { return Vec3(0.5 * double(j), 1, 0); };
+  const auto triangles = fill_strip(
+      5, 9, [&](std::size_t i, std::size_t j) { return (outer(i) - inner(j)).squaredNorm(); });
+  ASSERT_EQ(triangles.size(), 12u);
+  double sum = 0;
+  std::set<std::array<Index, 2>> sides;
+  const auto place = [&](Index v) {
+    return v < 5 ? outer(std::size_t(v)) : inner(std::size_t(v) - 5);
+  };
+  for (const auto& t : triangles) {
+    sum += (place(t[1]) - place(t[0])).cross(place(t[2]) - place(t[0])).z() / 2;
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(sides.insert({t[i], t[(i + 1) % 3]}).second);
+  }
+  EXPECT_NEAR(sum, 4, 1e-12);
+  EXPECT_TRUE(sides.contains({5, 0}));   // from start to start, ...
+  EXPECT_TRUE(sides.contains({4, 13}));  // ... and from end to end
+  EXPECT_EQ(fill_strip(2, 1, [](std::size_t, std::size_t) { return 1.0; }).size(), 1u);
+  EXPECT_THROW(fill_strip(0, 3, [](std::size_t, std::size_t) { return 1.0; }), PreconditionError);
 }
 
 TEST(DropUnusedVertices, KeepsTheOthersAsTheyWere) {

@@ -71,12 +71,27 @@ TEST(SurfacePart, IsTheSurfaceWithShortEdgesInTheBox) {
         EXPECT_LE((b - a).norm(), 0.05);
       }
       const Index g = part.neighbours[f][i];
+      EXPECT_FALSE(g != kNone && part.boundary.contains({part.faces[f][i], part.faces[f][(i + 1) % 3]}));
       if (g == kNone) continue;
       EXPECT_EQ(std::ranges::count(part.neighbours[g], static_cast<Index>(f)), 1);
       EXPECT_EQ(std::ranges::count(part.faces[g], part.faces[f][i]), 1);
       EXPECT_EQ(std::ranges::count(part.faces[g], part.faces[f][(i + 1) % 3]), 1);
     }
   }
+}
+
+TEST(SurfacePart, KnowsTheBoundaryOfTheSurface) {
+  const Case c = grid(8, 4, [](double, double) { return 0.0; });
+  const Eigen::AlignedBox3d box(Vec3(0.01, 0.3, -1), Vec3(0.6, 0.7, 1));
+  const SurfacePart part = surface_part(c.mesh, {40}, box, 0.05, 10000);
+  double length = 0;
+  for (const auto& [a, b] : part.boundary) {
+    EXPECT_EQ(part.positions[a].x() + c.mesh.origin.x(), 0);
+    EXPECT_EQ(part.positions[b].x() + c.mesh.origin.x(), 0);
+    EXPECT_LE((part.positions[b] - part.positions[a]).norm(), 0.125);
+    length += (part.positions[b] - part.positions[a]).norm();
+  }
+  EXPECT_NEAR(length, 0.5, 1e-12);  // four sides of squares, from 0.25 to 0.75
 }
 
 TEST(SurfacePart, IsEmptyWhereItWouldHaveTooManyFaces) {
@@ -210,18 +225,128 @@ TEST(InlayCutter, PutsTheInputOverCells) {
   }
 }
 
-TEST(InlayCutter, CutsNoneAtTheBoundaryOrOfARing) {
+TEST(InlayCutter, CutsNoneOfTwoDisksOrOfAll) {
   const Case c = grid(32, 8, terrain);
   const ComparedSurfaces surfaces(c.mesh, c.quads);
   const InlayCutter cutter(surfaces, c.quads);
-  EXPECT_FALSE(cutter.cut({0}).has_value());
-  EXPECT_FALSE(cutter.cut({3 * 8 + 3, 3 * 8 + 5}).has_value());  // two disks
+  EXPECT_FALSE(cutter.cut({3 * 8 + 3, 3 * 8 + 5}).has_value());
+  std::set<Index> all;
+  for (Index f = 0; f < 64; ++f) all.insert(f);
+  EXPECT_FALSE(cutter.cut(all).has_value());  // no vertex of the result would stay
   std::set<Index> ring = {3 * 8 + 4};
   cutter.add_ring(ring);
   ring.erase(3 * 8 + 4);
   const std::optional<Inlay> inlay = cutter.cut(ring);
   ASSERT_TRUE(inlay.has_value());  // with what it encloses
   EXPECT_EQ(inlay->cells.size(), 9u);
+}
+
+/// The result with an inlay in it.
+PolyMesh inlaid(const Case& c, const Inlay& inlay) {
+  PolyMesh mesh;
+  mesh.positions = c.quads.mesh.positions;
+  for (Index f = 0; f < c.quads.mesh.face_count(); ++f) {
+    if (!std::ranges::binary_search(inlay.cells, f)) mesh.add_face(c.quads.mesh.face(f));
+  }
+  const Index first = mesh.vertex_count();
+  for (const SurfacePoint& p : inlay.points) {
+    mesh.positions.push_back(place_of(c.mesh, p) + c.mesh.origin);
+  }
+  const auto outline = static_cast<Index>(inlay.outline.size());
+  for (std::array<Index, 3> t : inlay.faces) {
+    for (Index& v : t) v = v < outline ? inlay.outline[v] : first + v - outline;
+    mesh.add_face(t);
+  }
+  return mesh;
+}
+
+double flat_area(const PolyMesh& mesh) {
+  double sum = 0;
+  for (const auto& t : triangulate_faces(mesh).corners) sum += area_vector(mesh.positions, t).z();
+  return sum;
+}
+
+/// A case without the cells that are named, and without the surface under them.
+Case with_hole(const Case& whole, const std::set<Index>& cells) {
+  const auto index = [](double x) { return std::min<Index>(7, static_cast<Index>(8 * x)); };
+  const auto cell_at = [&](const Vec3& p) { return 8 * index(p.y()) + index(p.x()); };
+  PolyMesh soup;
+  std::map<Index, Index> number;
+  for (const auto& t : whole.mesh.faces) {
+    Vec3 middle = whole.mesh.origin;
+    for (const Index v : t) middle += whole.mesh.positions[v] / 3;
+    if (cells.contains(cell_at(middle))) continue;
+    std::array<Index, 3> face = t;
+    for (Index& v : face) {
+      const auto [at, is_new] = number.try_emplace(v, soup.vertex_count());
+      if (is_new) soup.positions.push_back(whole.mesh.positions[v] + whole.mesh.origin);
+      v = at->second;
+    }
+    soup.add_face(face);
+  }
+  Case result;
+  result.mesh = support::plain_tri_mesh(soup);
+  result.quads.mesh.positions = whole.quads.mesh.positions;
+  for (Index f = 0; f < whole.quads.mesh.face_count(); ++f) {
+    if (!cells.contains(f)) result.quads.mesh.add_face(whole.quads.mesh.face(f));
+  }
+  for (const Vec3& p : whole.quads.mesh.positions) {
+    const auto at = std::ranges::find(soup.positions, p);
+    const auto v = static_cast<std::size_t>(at - soup.positions.begin());
+    const Index h = at == soup.positions.end() ? 0 : result.mesh.vertex_out[v];
+    std::array<double, 3> barycentric = {0, 0, 0};
+    barycentric[h % 3] = 1;
+    result.quads.provenance.face.push_back(TriMesh::face_of(h));
+    result.quads.provenance.barycentric.push_back(barycentric);
+    result.quads.provenance.lines.push_back({kNone, kNone});
+  }
+  return result;
+}
+
+/// Puts an inlay over cells into a result. \pre the surface is not much bent
+void expect_inlay(const Case& c, const std::set<Index>& cells, Index euler, Index boundaries) {
+  SCOPED_TRACE(testing::PrintToString(cells));
+  const ComparedSurfaces surfaces(c.mesh, c.quads);
+  const std::optional<Inlay> inlay = InlayCutter(surfaces, c.quads).cut(cells);
+  ASSERT_TRUE(inlay.has_value());
+  EXPECT_GT(inlay->points.size(), 4 * cells.size());
+  const PolyMesh mesh = inlaid(c, *inlay);
+  const PolyTopology topology = analyse(mesh);
+  EXPECT_TRUE(topology.is_oriented_manifold());
+  EXPECT_EQ(topology.euler, euler);
+  EXPECT_EQ(topology.boundary_loops, boundaries);
+  EXPECT_NEAR(flat_area(mesh), flat_area(c.quads.mesh), 1e-9);
+}
+
+TEST(InlayCutter, GoesAlongTheBoundary) {
+  const Case c = grid(32, 8, terrain);
+  expect_inlay(c, {0, 1, 8, 9}, 1, 1);                // a corner
+  expect_inlay(c, {3, 4, 5, 11, 12, 13}, 1, 1);       // one side
+  std::set<Index> across;
+  for (Index f = 24; f < 40; ++f) across.insert(f);   // from one side to the other
+  expect_inlay(c, across, 1, 1);
+}
+
+TEST(InlayCutter, GoesAroundHoles) {
+  const Case c = with_hole(grid(32, 8, terrain), {27, 28});
+  std::set<Index> beside = {18, 19, 20, 26};  // part of the hole's boundary
+  expect_inlay(c, beside, 0, 2);
+  std::set<Index> around;  // all of it
+  for (Index y = 2; y < 5; ++y) {
+    for (Index x = 2; x < 6; ++x) {
+      const Index cell = 8 * y + x;
+      if (cell < 27 || cell > 28) around.insert(cell < 27 ? cell : cell - 2);
+    }
+  }
+  expect_inlay(c, around, 0, 2);
+}
+
+TEST(InlayCutter, GoesInRings) {
+  // Around more cells than it has, which are none of its own.
+  const Case c = grid(32, 8, terrain);
+  std::set<Index> ring;
+  for (Index i = 0; i < 8; ++i) ring.insert({i, 56 + i, 8 * i, 8 * i + 7});
+  expect_inlay(c, ring, 1, 1);
 }
 
 TEST(Inlays, BringWhatIsBeyondWithinTheTolerance) {
@@ -259,7 +384,7 @@ TEST(Inlays, DoWhatDividingLeaves) {
 }
 
 TEST(Inlays, LeaveAResultThatTheyCannotMend) {
-  const Case c = grid(32, 1, [](double x, double) { return x * (1 - x); });  // all at the boundary
+  const Case c = grid(32, 1, [](double x, double) { return x * (1 - x); });  // one cell is all
   ToleranceProof proof(std::make_shared<const InputSurface>(c.mesh), 0.01);
   QuadMesh quads = c.quads;
   const auto excess = proof.check(ComparedSurfaces(proof.input(), quads));
