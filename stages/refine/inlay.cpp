@@ -8,13 +8,12 @@
 #include <map>
 #include <numeric>
 #include <span>
-#include <tuple>
 #include <unordered_set>
 #include <utility>
 
 #include "common/geometry/angles.h"
-#include "common/geometry/patch_fill/patch_outline.h"
 #include "common/geometry/patch_fill/fill_band.h"
+#include "common/geometry/patch_fill/patch_outline.h"
 #include "common/geometry/surface_distance/surface_distance.h"
 #include "stages/refine/enclosed.h"
 #include "stages/refine/surface_part.h"
@@ -91,8 +90,9 @@ class InlayCutter::Cover {
       });
       std::vector<Polygon> corners;
       for (const Index f : over) corners.emplace_back(part_.faces[f].begin(), part_.faces[f].end());
-      outline = patch_outline(
-          corners, {}, [&](Index a, Index b) { return part_.boundary.contains({a, b}); });
+      outline = patch_outline(corners, {}, [&](Index a, Index b) {
+        return part_.boundary.contains({a, b});
+      });
       if (outline.pinched.empty()) return {over.begin(), over.end()};
       for (const Index v : outline.pinched) is_inside_[v] = 0;
     }
@@ -221,8 +221,9 @@ std::optional<InlayCutter::Patch> InlayCutter::patch_of(std::set<Index> cells) c
         if (neighbour(f, face[k], next) == kNone) boundary.emplace(face[k], next);
       }
     }
-    PatchOutline outline = patch_outline(
-        faces, {}, [&](Index a, Index b) { return boundary.contains({a, b}); });
+    PatchOutline outline = patch_outline(faces, {}, [&](Index a, Index b) {
+      return boundary.contains({a, b});
+    });
     if (outline.pinched.empty()) {
       if (outline.paths.empty()) return std::nullopt;
       return Patch{{cells.begin(), cells.end()}, std::move(outline)};
@@ -288,18 +289,21 @@ bool InlayCutter::add_bands(const PatchOutline& outline, const PatchOutline& rin
   std::vector<PatchOutline::Path> left = ring.paths;
   Index first = 0;
   for (const auto& [outer, is_closed] : outline.paths) {
-    auto nearest = left.end();
+    std::size_t nearest = left.size();
     double least = std::numeric_limits<double>::infinity();
-    for (auto path = left.begin(); path != left.end(); ++path) {
-      if (path->is_closed != is_closed) continue;
-      const double now = distance(outer, path->vertices);
-      if (nearest == left.end() || now < least) std::tie(nearest, least) = std::pair{path, now};
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      if (left[i].is_closed != is_closed) continue;
+      const double now = distance(outer, left[i].vertices);
+      if (nearest < left.size() && now >= least) continue;
+      nearest = i;
+      least = now;
     }
+    if (nearest == left.size()) return false;
     std::vector<Index> corners(outer.size());
     std::iota(corners.begin(), corners.end(), first);
     first += static_cast<Index>(outer.size());
-    if (!add_band(corners, nearest->vertices, is_closed, inlay)) return false;
-    left.erase(nearest);
+    if (!add_band(corners, left[nearest].vertices, is_closed, inlay)) return false;
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>(nearest));
   }
   return true;
 }

@@ -10,8 +10,8 @@ namespace strake {
 
 // Faces of the input in place of cells that lines and dividing do not make good. Beyond [MK04].
 //
-// Around each place a disk of cells goes, and what of the input lies over it takes its place
-// (inlay.h), with a band of triangles between. Where that does not help the disk grows. At last
+// Around each place a patch of cells goes, and what of the input lies over it takes its place
+// (inlay.h), with bands of triangles between. Where that does not help the patch grows. At last
 // vertices go that the tolerance does not need (thin_out.h).
 
 /// Brings a result within the tolerance.

@@ -19,7 +19,7 @@ struct Traits : OpenMesh::DefaultTraits {
   using Point = OpenMesh::Vec3d;
   using Normal = OpenMesh::Vec3d;
 };
-using Disk = OpenMesh::TriMesh_ArrayKernelT<Traits>;
+using Patch = OpenMesh::TriMesh_ArrayKernelT<Traits>;
 
 /// Largest ratio of sides that a collapse may lead to.
 constexpr float kLargestAspect = 4;
@@ -33,13 +33,13 @@ class NoChords : public OpenMesh::Decimater::ModBaseT<MeshT> {
  public:
   DECIMATING_MODULE(NoChords, MeshT, NoChords);
 
-  explicit NoChords(MeshT& disk) : Base(disk, true) {}
+  explicit NoChords(MeshT& patch) : Base(patch, true) {}
 
   float collapse_priority(const CollapseInfo& edge) override {
-    const MeshT& disk = edge.mesh;
-    if (!disk.is_boundary(edge.v1)) return Base::LEGAL_COLLAPSE;
-    for (const auto v : disk.vv_range(edge.v0)) {
-      if (v != edge.v1 && v != edge.vl && v != edge.vr && disk.is_boundary(v)) {
+    const MeshT& patch = edge.mesh;
+    if (!patch.is_boundary(edge.v1)) return Base::LEGAL_COLLAPSE;
+    for (const auto v : patch.vv_range(edge.v0)) {
+      if (v != edge.v1 && v != edge.vl && v != edge.vr && patch.is_boundary(v)) {
         return Base::ILLEGAL_COLLAPSE;
       }
     }
@@ -48,42 +48,43 @@ class NoChords : public OpenMesh::Decimater::ModBaseT<MeshT> {
 };
 
 /// Around the origin, of size one: OpenMesh takes small triangles for degenerate ones.
-/// \return nothing where it does not take them as a disk
-std::optional<Disk> scaled_disk(const std::vector<Vec3>& positions,
-                                const std::vector<std::array<Index, 3>>& triangles, double scale) {
-  Disk disk;
-  disk.request_vertex_status();
-  disk.request_edge_status();
-  disk.request_halfedge_status();
-  disk.request_face_status();
-  disk.request_face_normals();
+/// \return nothing where it does not take them as a manifold
+std::optional<Patch> scaled_patch(const std::vector<Vec3>& positions,
+                                  const std::vector<std::array<Index, 3>>& triangles,
+                                  double scale) {
+  Patch patch;
+  patch.request_vertex_status();
+  patch.request_edge_status();
+  patch.request_halfedge_status();
+  patch.request_face_status();
+  patch.request_face_normals();
   for (const Vec3& position : positions) {
     const Vec3 p = scale * (position - positions.front());
-    disk.add_vertex({p.x(), p.y(), p.z()});
+    patch.add_vertex({p.x(), p.y(), p.z()});
   }
   for (const auto& [a, b, c] : triangles) {
     const auto face =
-        disk.add_face(Disk::VertexHandle(a), Disk::VertexHandle(b), Disk::VertexHandle(c));
+        patch.add_face(Patch::VertexHandle(a), Patch::VertexHandle(b), Patch::VertexHandle(c));
     if (!face.is_valid()) return std::nullopt;
   }
-  disk.update_face_normals();
-  return disk;
+  patch.update_face_normals();
+  return patch;
 }
 
-void decimate(Disk& disk, double distance) {
-  OpenMesh::Decimater::DecimaterT<Disk> decimater(disk);
-  OpenMesh::Decimater::ModQuadricT<Disk>::Handle quadrics;
+void decimate(Patch& patch, double distance) {
+  OpenMesh::Decimater::DecimaterT<Patch> decimater(patch);
+  OpenMesh::Decimater::ModQuadricT<Patch>::Handle quadrics;
   decimater.add(quadrics);
   decimater.module(quadrics).unset_max_err();
-  OpenMesh::Decimater::ModHausdorffT<Disk>::Handle hausdorff;
+  OpenMesh::Decimater::ModHausdorffT<Patch>::Handle hausdorff;
   decimater.add(hausdorff);
   decimater.module(hausdorff).set_tolerance(distance);
-  OpenMesh::Decimater::ModNormalFlippingT<Disk>::Handle flipping;
+  OpenMesh::Decimater::ModNormalFlippingT<Patch>::Handle flipping;
   decimater.add(flipping);
-  OpenMesh::Decimater::ModAspectRatioT<Disk>::Handle shapes;
+  OpenMesh::Decimater::ModAspectRatioT<Patch>::Handle shapes;
   decimater.add(shapes);
   decimater.module(shapes).set_aspect_ratio(kLargestAspect);
-  NoChords<Disk>::Handle chords;
+  NoChords<Patch>::Handle chords;
   decimater.add(chords);
   if (!decimater.initialize()) throw AlgorithmError("decimation does not start; please report");
   decimater.decimate();
@@ -97,20 +98,20 @@ double height_share(const OpenMesh::Vec3d& a, const OpenMesh::Vec3d& b, const Op
 
 /// Whether an edge may be turned: it is none between vertices that stay, which may be part of a
 /// line, and turned it does not join two vertices of the outline.
-bool may_be_turned(const Disk& disk, OpenMesh::SmartEdgeHandle edge) {
-  const bool stays = disk.status(edge.v0()).locked() && disk.status(edge.v1()).locked();
-  return !stays && disk.is_flip_ok(edge) &&
-         !(disk.is_boundary(edge.h0().next().to()) && disk.is_boundary(edge.h1().next().to()));
+bool may_be_turned(const Patch& patch, OpenMesh::SmartEdgeHandle edge) {
+  const bool stays = patch.status(edge.v0()).locked() && patch.status(edge.v1()).locked();
+  return !stays && patch.is_flip_ok(edge) &&
+         !(patch.is_boundary(edge.h0().next().to()) && patch.is_boundary(edge.h1().next().to()));
 }
 
 /// Whether turning an edge makes the worse of its two triangles better, without a fold.
 /// \param gap  how far the two diagonals may be apart
-bool is_better_turned(const Disk& disk, OpenMesh::SmartEdgeHandle edge, double gap) {
+bool is_better_turned(const Patch& patch, OpenMesh::SmartEdgeHandle edge, double gap) {
   const auto h = edge.h0();
-  const OpenMesh::Vec3d a = disk.point(h.from());
-  const OpenMesh::Vec3d b = disk.point(h.to());
-  const OpenMesh::Vec3d left = disk.point(h.next().to());
-  const OpenMesh::Vec3d right = disk.point(h.opp().next().to());
+  const OpenMesh::Vec3d a = patch.point(h.from());
+  const OpenMesh::Vec3d b = patch.point(h.to());
+  const OpenMesh::Vec3d left = patch.point(h.next().to());
+  const OpenMesh::Vec3d right = patch.point(h.opp().next().to());
   const OpenMesh::Vec3d normal = cross(b - a, left - a) + cross(a - b, right - b);
   const bool folds =
       dot(cross(right - a, left - a), normal) <= 0 || dot(cross(left - b, right - b), normal) <= 0;
@@ -123,13 +124,13 @@ bool is_better_turned(const Disk& disk, OpenMesh::SmartEdgeHandle edge, double g
 
 /// Turns edges for better triangles. A vertex on an edge of the triangle beside it makes a sliver
 /// with that edge; turned, it divides that triangle.
-void turn_edges(Disk& disk, double gap) {
+void turn_edges(Patch& patch, double gap) {
   for (int round = 0; round < kMostTurns; ++round) {
     bool any = false;
-    for (const auto edge : disk.edges()) {
-      if (disk.is_boundary(edge) || !may_be_turned(disk, edge)) continue;
-      if (!is_better_turned(disk, edge, gap)) continue;
-      disk.flip(edge);
+    for (const auto edge : patch.edges()) {
+      if (patch.is_boundary(edge) || !may_be_turned(patch, edge)) continue;
+      if (!is_better_turned(patch, edge, gap)) continue;
+      patch.flip(edge);
       any = true;
     }
     if (!any) return;
@@ -145,22 +146,22 @@ std::vector<std::array<Index, 3>> thin_out(const std::vector<Vec3>& positions,
   double size = 0;
   for (const Vec3& p : positions) size = std::max(size, (p - positions.front()).norm());
   const double scale = 1 / size;
-  std::optional<Disk> scaled = scaled_disk(positions, triangles, scale);
+  std::optional<Patch> scaled = scaled_patch(positions, triangles, scale);
   if (!scaled) return triangles;
-  Disk& disk = *scaled;
-  for (const auto v : disk.vertices()) {
-    disk.status(v).set_locked(stays[v.idx()] != 0 || disk.is_boundary(v));
+  Patch& patch = *scaled;
+  for (const auto v : patch.vertices()) {
+    patch.status(v).set_locked(stays[v.idx()] != 0 || patch.is_boundary(v));
   }
   const double gap = kLargestGap * scale * distance;
-  turn_edges(disk, gap);
-  decimate(disk, scale * distance);
-  turn_edges(disk, gap);
+  turn_edges(patch, gap);
+  decimate(patch, scale * distance);
+  turn_edges(patch, gap);
 
   std::vector<std::array<Index, 3>> result;
-  for (const auto face : disk.faces()) {  // those left; no garbage collection: numbers stay
+  for (const auto face : patch.faces()) {  // those left; no garbage collection: numbers stay
     std::array<Index, 3> corners = {};
     std::size_t i = 0;
-    for (const auto v : disk.fv_range(face)) corners[i++] = v.idx();
+    for (const auto v : patch.fv_range(face)) corners[i++] = v.idx();
     result.push_back(corners);
   }
   return result;

@@ -16,12 +16,13 @@ using Ring = std::vector<Index>;
 std::vector<Ring> rings_of(std::map<Index, Index> next) {
   std::vector<Ring> rings;
   while (!next.empty()) {
-    Ring& ring = rings.emplace_back();
+    Ring ring;
     for (auto at = next.begin(); at != next.end(); at = next.find(ring.back())) {
       ring.push_back(at->second);
       next.erase(at);
     }
-    std::ranges::rotate(ring, std::prev(ring.end()));
+    std::rotate(ring.begin(), std::prev(ring.end()), ring.end());
+    rings.push_back(std::move(ring));
   }
   return rings;
 }
@@ -49,7 +50,8 @@ void add_paths(const Ring& ring, const IsEdge& is_boundary, PatchOutline& outlin
 }
 
 Index closed_count(const PatchOutline& outline) {
-  return static_cast<Index>(std::ranges::count(outline.paths, true, &PatchOutline::Path::is_closed));
+  return static_cast<Index>(
+      std::ranges::count(outline.paths, true, &PatchOutline::Path::is_closed));
 }
 
 }  // namespace
@@ -83,10 +85,9 @@ PatchOutline patch_outline(std::span<const std::vector<Index>> faces, const IsEd
   if (!outline.pinched.empty()) return outline;
   const std::size_t edges = (sides.size() + next.size()) / 2;  // inner ones have two sides
   outline.euler = static_cast<Index>(vertices.size() + faces.size()) - static_cast<Index>(edges);
-  for (const Ring& ring : rings_of(std::move(next))) {
-    ++outline.loops;
-    add_paths(ring, is_boundary, outline);
-  }
+  const std::vector<Ring> rings = rings_of(std::move(next));
+  outline.loops = static_cast<Index>(rings.size());
+  for (const Ring& ring : rings) add_paths(ring, is_boundary, outline);
   return outline;
 }
 

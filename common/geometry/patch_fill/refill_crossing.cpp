@@ -15,11 +15,11 @@
 #include "common/geometry/face_crossings/box_tree.h"
 #include "common/geometry/face_crossings/placed_face.h"
 #include "common/geometry/mesh_measures.h"
-#include "common/geometry/patch_fill/patch_outline.h"
 #include "common/geometry/patch_fill/drop_unused_vertices.h"
 #include "common/geometry/patch_fill/fill_polygon.h"
 #include "common/geometry/patch_fill/join_triangles.h"
 #include "common/geometry/patch_fill/mendable_crossings.h"
+#include "common/geometry/patch_fill/patch_outline.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/surface_lines.h"
 

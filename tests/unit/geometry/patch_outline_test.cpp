@@ -1,3 +1,5 @@
+#include "common/geometry/patch_fill/patch_outline.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -10,7 +12,6 @@
 #include "common/core/error.h"
 #include "common/geometry/patch_fill/drop_unused_vertices.h"
 #include "common/geometry/patch_fill/fill_band.h"
-#include "common/geometry/patch_fill/patch_outline.h"
 #include "tests/support/result_cases.h"
 
 namespace strake {
@@ -67,9 +68,7 @@ TEST(PatchOutline, FollowsWalls) {
 TEST(PatchOutline, LeavesTheBoundaryOut) {
   // Of a grid of 3 x 3 squares, vertices 0 to 15, the outside is the boundary.
   const auto is_outside = [](Index a, Index b) {
-    const auto on = [](Index v) {
-      return std::array{v < 4, v >= 12, v % 4 == 0, v % 4 == 3};
-    };
+    const auto on = [](Index v) { return std::array{v < 4, v >= 12, v % 4 == 0, v % 4 == 3}; };
     for (std::size_t side = 0; side < 4; ++side) {
       if (on(a)[side] && on(b)[side]) return true;
     }

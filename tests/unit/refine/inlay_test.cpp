@@ -71,7 +71,8 @@ TEST(SurfacePart, IsTheSurfaceWithShortEdgesInTheBox) {
         EXPECT_LE((b - a).norm(), 0.05);
       }
       const Index g = part.neighbours[f][i];
-      EXPECT_FALSE(g != kNone && part.boundary.contains({part.faces[f][i], part.faces[f][(i + 1) % 3]}));
+      EXPECT_FALSE(g != kNone &&
+                   part.boundary.contains({part.faces[f][i], part.faces[f][(i + 1) % 3]}));
       if (g == kNone) continue;
       EXPECT_EQ(std::ranges::count(part.neighbours[g], static_cast<Index>(f)), 1);
       EXPECT_EQ(std::ranges::count(part.faces[g], part.faces[f][i]), 1);
@@ -320,10 +321,10 @@ void expect_inlay(const Case& c, const std::set<Index>& cells, Index euler, Inde
 
 TEST(InlayCutter, GoesAlongTheBoundary) {
   const Case c = grid(32, 8, terrain);
-  expect_inlay(c, {0, 1, 8, 9}, 1, 1);                // a corner
-  expect_inlay(c, {3, 4, 5, 11, 12, 13}, 1, 1);       // one side
+  expect_inlay(c, {0, 1, 8, 9}, 1, 1);           // a corner
+  expect_inlay(c, {3, 4, 5, 11, 12, 13}, 1, 1);  // one side
   std::set<Index> across;
-  for (Index f = 24; f < 40; ++f) across.insert(f);   // from one side to the other
+  for (Index f = 24; f < 40; ++f) across.insert(f);  // from one side to the other
   expect_inlay(c, across, 1, 1);
 }
 
