@@ -83,7 +83,8 @@ class Inlays {
         cutter_(surfaces_, base_),
         is_given_up_(static_cast<std::size_t>(base_.mesh.face_count()), 0) {}
 
-  /// Makes inlays over cells, and lets them grow.
+  /// Makes inlays over cells, and lets them grow; where that ends in vain those are back with which
+  /// there were the fewest faults.
   /// \return whether there is no fault any more
   bool grow(const std::vector<Index>& cells) {
     Inlaid now{base_, {}, {}};
@@ -92,15 +93,19 @@ class Inlays {
     now.site.assign(now.part.size(), kNone);
     Faults bad{cells, true};
     std::size_t fewest = std::numeric_limits<std::size_t>::max();
+    std::vector<Site> best;
     int in_vain = 0;
     for (int round = 0; round < limits_.rounds && bad.any() && in_vain < kRoundsInVain; ++round) {
-      if (!widen(now, bad.faces)) return false;
-      if (!cut() || sites_.empty()) return false;
+      if (!widen(now, bad.faces) || !cut() || sites_.empty()) break;
       now = with_inlays();
       bad = faults(now);
-      in_vain = crossing_ != nullptr && bad.faces.size() >= fewest ? in_vain + 1 : 0;
-      fewest = std::min(fewest, bad.faces.size());
+      if (crossing_ == nullptr) continue;
+      in_vain = bad.faces.size() < fewest ? 0 : in_vain + 1;
+      if (in_vain > 0) continue;
+      fewest = bad.faces.size();
+      best = sites_;
     }
+    if (bad.any()) sites_ = std::move(best);
     return !bad.any();
   }
 
