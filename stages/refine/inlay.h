@@ -17,8 +17,7 @@ namespace strake {
 /// Faces of the input in place of a patch of cells, with bands of triangles around them.
 struct Inlay {
   std::vector<Index> cells;  ///< of the result, that go; ascending
-  /// Vertices of the result around them, counter-clockwise; at the boundary those on the way from
-  /// there to there.
+  /// Vertices of the result around them, path after path (patch_outline.h), with these to the left.
   std::vector<Index> outline;
   std::vector<SurfacePoint> points;  ///< of the input, for new vertices
   /// Corners below `outline.size()` are of the outline, the others of the points.

@@ -23,8 +23,10 @@ struct SurfacePart {
 };
 
 /// The part of a surface that is joined to some of its faces and may reach into a box, with what it
-/// encloses, also against the boundary; in the box the longest edges are halved until none is
-/// longer than a length. \param faces    of the surface \param longest  model units, positive
+/// encloses, also against the boundary. In the box the longest edges are halved until none is
+/// longer than `longest`.
+/// \param faces    of the surface
+/// \param longest  model units, positive
 /// \return nothing in it where it would have more than `most` faces
 SurfacePart surface_part(const TriMesh& mesh, const std::vector<Index>& faces,
                          const Eigen::AlignedBox3d& box, double longest, std::size_t most);

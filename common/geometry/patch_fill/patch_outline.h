@@ -29,9 +29,8 @@ struct PatchOutline {
 
 /// The outline of faces of one mesh.
 /// \param faces        vertices of each, in one sense
-/// \param is_wall      whether the edge between two vertices is a part of the outline although
-/// there
-///                     are faces on both sides; none where it is empty
+/// \param is_wall      whether an edge is a part of the outline although there are faces on both
+///                     sides; none where it is empty
 /// \param is_boundary  whether an edge, in the sense of its face, is one of the mesh's boundary;
 ///                     none where it is empty
 PatchOutline patch_outline(std::span<const std::vector<Index>> faces,

@@ -44,10 +44,9 @@ TEST(PatchOutline, TellsRingsAndTwoDisksFromADisk) {
   EXPECT_FALSE(disks.is_disk());
   EXPECT_EQ(ring.euler, 0);
   EXPECT_EQ(ring.loops, 2);
-  for (const PatchOutline& a : {ring, disks, disk}) {
-    for (const PatchOutline& b : {ring, disks, disk}) {
-      EXPECT_EQ(a.is_like(b), a.euler == b.euler && a.loops == b.loops);
-    }
+  const std::array all = {ring, disks, disk};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t j = 0; j < all.size(); ++j) EXPECT_EQ(all[i].is_like(all[j]), i == j);
   }
   EXPECT_TRUE(ring.is_like(patch_outline(squares(4, {0, 1, 2, 4, 6, 8, 9, 10}))));
 }
