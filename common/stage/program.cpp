@@ -130,11 +130,12 @@ void make_output(const Stage& stage, const Paths& paths, const ShellOptions& she
     console.report("writing " + paths.output, 1);
     const TriMesh* mesh = inputs.find<TriMesh>("mesh");
     save_value(paths.output, *result.output, mesh, result.provenance.value_or(record.provenance));
-  } else {
-    std::fputs(report_text(record.report).c_str(), stdout);
-    if (!paths.output.empty()) write_text(paths.output, record_json(record));
+  } else if (!paths.output.empty()) {
+    write_text(paths.output, record_json(record));
   }
   if (!shell.report_path.empty()) write_text(shell.report_path, record_json(record));
+  // After the files: where one cannot be written, the error is all that is said.
+  if (!result.output) std::fputs(report_text(record.report).c_str(), stdout);
   if (shell.verbose && result.output) console.say(report_text(record.report));
 }
 

@@ -14,19 +14,19 @@
 #include "common/geometry/patch_fill/drop_unused_vertices.h"
 #include "stages/refine/cells_beyond.h"
 #include "stages/refine/inlay.h"
-#include "stages/refine/thin_out.h"
+#include "stages/refine/thinning.h"
 
 namespace strake {
 namespace {
 
-/// Cells in place of which an inlay may be, and times that inlays grow.
-struct Limits {
-  std::size_t cells;
-  int rounds;
+/// What inlays grow for.
+struct Goal {
+  bool uncrosses;     ///< faces that cross, too; these may stay, so inlays that do not help may go
+  std::size_t cells;  ///< at most, in place of which an inlay may be
+  int rounds;         ///< times at most that inlays grow
 };
-constexpr Limits kLimitsBeyond = {4000, 16};
-/// Faces that cross may stay, if it takes more.
-constexpr Limits kLimitsCrossing = {1000, 16};
+constexpr Goal kWithin = {false, 4000, 16};
+constexpr Goal kUncrossed = {true, 1000, 16};
 /// Faces of an inlay that are not worth it, for faces that cross: for each cell that goes, or as a
 /// share of all cells, whatever is more.
 constexpr std::size_t kMostFacesPerCell = 4;
@@ -40,9 +40,10 @@ constexpr std::size_t kMostInVain = 40000;
 constexpr int kRoundsInVain = 4;
 /// Where more cells are bad, it is not for single places.
 constexpr std::size_t kMostBad = 3000;
-/// Distances by which inlays are thinned out, in tolerances. Those with faults then are by the next
-/// one, or stay as they are.
-constexpr std::array kThinned = {0.8, 0.5, 0.25, 0.05};
+/// Times that inlays are thinned out by the next distance, not by none, where they have faults.
+constexpr int kMostThinnings = 12;
+/// Largest growth of the ball around a fault in which inlays are thinned out less.
+constexpr double kLargestScale = 1024;
 
 /// Where an inlay is to be.
 struct Site {
@@ -69,15 +70,12 @@ struct Faults {
 
 class Inlays {
  public:
-  /// \param quads     kept by reference
-  /// \param crossing  finds faces that are faults, too; nullptr: only those beyond the tolerance
-  ///                  are
-  Inlays(ToleranceProof& proof, const QuadMesh& quads, CrossingPlaces* crossing,
-         const Limits& limits)
+  /// \param proof, quads, crossing  kept by reference
+  Inlays(ToleranceProof& proof, const QuadMesh& quads, CrossingPlaces& crossing, const Goal& goal)
       : proof_(proof),
         base_(quads),
         crossing_(crossing),
-        limits_(limits),
+        goal_(goal),
         surfaces_(proof.input(), base_),
         lines_(surfaces_.mesh()),
         cutter_(surfaces_, base_),
@@ -95,11 +93,11 @@ class Inlays {
     std::size_t fewest = std::numeric_limits<std::size_t>::max();
     std::vector<Site> best;
     int in_vain = 0;
-    for (int round = 0; round < limits_.rounds && bad.any() && in_vain < kRoundsInVain; ++round) {
+    for (int round = 0; round < goal_.rounds && bad.any() && in_vain < kRoundsInVain; ++round) {
       if (!widen(now, bad.faces) || !cut() || sites_.empty()) break;
       now = with_inlays();
       bad = faults(now);
-      if (crossing_ == nullptr) continue;
+      if (!goal_.uncrosses) continue;
       in_vain = bad.faces.size() < fewest ? 0 : in_vain + 1;
       if (in_vain > 0) continue;
       fewest = bad.faces.size();
@@ -113,11 +111,14 @@ class Inlays {
   void drop_bad() {
     for (;;) {
       const Inlaid now = with_inlays();
-      const std::vector<char> is_bad = sites_at(now, faults(now).faces);
-      if (std::ranges::find(is_bad, 1) == is_bad.end()) return;
+      std::set<std::size_t> bad;
+      for (const Index f : faults(now).faces) {
+        for (const std::size_t s : sites_at(now, f)) bad.insert(s);
+      }
+      if (bad.empty()) return;
       std::vector<Site> good;
       for (std::size_t s = 0; s < sites_.size(); ++s) {
-        if (is_bad[s] == 0) good.push_back(std::move(sites_[s]));
+        if (!bad.contains(s)) good.push_back(std::move(sites_[s]));
       }
       sites_ = std::move(good);
     }
@@ -131,26 +132,17 @@ class Inlays {
     });
   }
 
-  /// Takes vertices out of inlays as long as they get no faults. \pre they have none
+  /// Takes vertices out of inlays, fewer around the faults that they get. \pre they have none
   void thin() {
-    std::vector<std::size_t> level(sites_.size(), 0);
-    const std::vector<Site> full = sites_;
-    for (;;) {
-      for (std::size_t s = 0; s < sites_.size(); ++s) {
-        sites_[s].inlay = full[s].inlay;
-        if (level[s] < kThinned.size()) {
-          thin(sites_[s].inlay, kThinned[level[s]] * proof_.tolerance());
-        }
+    std::vector<Thinning> thinnings;
+    for (const Site& site : sites_) thinnings.emplace_back(surfaces_, lines_, site.inlay);
+    std::vector<std::size_t> changed(sites_.size());
+    std::iota(changed.begin(), changed.end(), 0);
+    for (int time = 0; !changed.empty(); ++time) {
+      for (const std::size_t s : changed) {
+        sites_[s].inlay.faces = thinnings[s].faces(proof_.tolerance());
       }
-      const Inlaid now = with_inlays();
-      const Faults left = faults(now);
-      const std::vector<char> is_bad = sites_at(now, left.faces);
-      const std::vector<std::size_t> before = level;
-      for (std::size_t s = 0; s < sites_.size(); ++s) {
-        if (is_bad[s] != 0) level[s] = std::min(level[s] + 1, kThinned.size());
-      }
-      if (level == before && left.is_beyond) level.assign(level.size(), kThinned.size());
-      if (level == before) return;
+      changed = thin_less(with_inlays(), time < kMostThinnings ? 1 : Thinning::kLevels, thinnings);
     }
   }
 
@@ -158,33 +150,32 @@ class Inlays {
   [[nodiscard]] QuadMesh result() const { return with_inlays().quads; }
 
  private:
-  /// Faces beyond the tolerance, and those that cross if that is asked for.
+  /// What inlays grow for: faces beyond the tolerance, and those that cross if that is the goal.
   Faults faults(const Inlaid& inlaid) {
+    Faults result = beyond(inlaid);
+    if (!goal_.uncrosses) return result;
+    const std::vector<Index> crossing = crossing_.faces_of(inlaid.quads.mesh);
+    std::vector<Index> all;
+    std::ranges::set_union(result.faces, crossing, std::back_inserter(all));
+    return {std::move(all), result.is_beyond};
+  }
+
+  Faults beyond(const Inlaid& inlaid) {
     const auto excess = proof_.check(ComparedSurfaces(proof_.input(), inlaid.quads));
     std::set<Index> faces;
     const bool on_surface = excess.size() <= kMostSearched;
     for (const Target& t : cells_beyond(proof_.input()->mesh, inlaid.quads, excess, on_surface)) {
       faces.insert(t.face);
     }
-    if (crossing_ != nullptr) {
-      const std::vector<Index> cross = crossing_->faces_of(inlaid.quads.mesh);
-      faces.insert(cross.begin(), cross.end());
-    }
     return {{faces.begin(), faces.end()}, !excess.empty()};
   }
 
-  /// [sites] 1: one of the faces is a part of its inlay, or beside it.
-  [[nodiscard]] std::vector<char> sites_at(const Inlaid& inlaid,
-                                           const std::vector<Index>& faces) const {
-    std::vector<char> result(sites_.size(), 0);
-    for (const Index f : faces) {
-      if (inlaid.site[f] != kNone) {
-        result[inlaid.site[f]] = 1;
-        continue;
-      }
-      for (std::size_t s = 0; s < sites_.size(); ++s) {
-        if (is_beside(inlaid.part[f], sites_[s])) result[s] = 1;
-      }
+  /// Sites in whose inlay a face is, or that it is beside.
+  [[nodiscard]] std::vector<std::size_t> sites_at(const Inlaid& inlaid, Index face) const {
+    if (inlaid.site[face] != kNone) return {static_cast<std::size_t>(inlaid.site[face])};
+    std::vector<std::size_t> result;
+    for (std::size_t s = 0; s < sites_.size(); ++s) {
+      if (is_beside(inlaid.part[face], sites_[s])) result.push_back(s);
     }
     return result;
   }
@@ -243,7 +234,7 @@ class Inlays {
       before = site.cells.size();
       cells_in_vain_ += before;
       widen(site);
-      if (site.cells.size() > limits_.cells || cells_in_vain_ > kMostInVain) break;
+      if (site.cells.size() > goal_.cells || cells_in_vain_ > kMostInVain) break;
       inlay = cutter_.cut(site.cells);
     }
     return inlay;
@@ -259,7 +250,7 @@ class Inlays {
         if (std::optional<Inlay> inlay = cut_growing(site)) {
           site.inlay = std::move(*inlay);
           site.cut_for = site.cells.size();
-        } else if (crossing_ == nullptr) {
+        } else if (!goal_.uncrosses) {
           return false;
         } else {
           for (const Index cell : site.cells) is_given_up_[cell] = 1;
@@ -303,16 +294,55 @@ class Inlays {
     return any;
   }
 
-  void thin(Inlay& inlay, double distance) const {
-    std::vector<Vec3> positions;
-    std::vector<std::uint8_t> stays;
-    for (const Index v : inlay.outline) positions.push_back(surfaces_.positions()[v]);
-    stays.assign(positions.size(), 1);
-    for (const SurfacePoint& point : inlay.points) {
-      positions.push_back(place_of(surfaces_.mesh(), point));
-      stays.push_back(lines_.places(point).empty() ? 0 : 1);
+  /// Thins inlays out less around their faces that cross others, which they may have done before,
+  /// and around faces beyond the tolerance, in as large a ball as it takes.
+  /// \param levels  by how many
+  /// \return the inlays for which that changes anything
+  std::vector<std::size_t> thin_less(const Inlaid& now, std::size_t levels,
+                                     std::vector<Thinning>& thinnings) {
+    const Faults bad = beyond(now);
+    std::vector<Index> crossing = crossing_.faces_of(now.quads.mesh);
+    std::erase_if(crossing, [&](Index f) { return now.site[f] == kNone; });
+    const std::vector<std::vector<Ball>> around_beyond = balls_around(now, bad.faces);
+    const std::vector<std::vector<Ball>> around_crossing = balls_around(now, crossing);
+    std::vector<std::size_t> changed;
+    for (std::size_t s = 0; s < sites_.size(); ++s) {
+      bool is_less = thinnings[s].lessen(around_crossing[s], 1, levels);
+      for (double scale = 1; !is_less && scale <= kLargestScale; scale *= 2) {
+        is_less = thinnings[s].lessen(around_beyond[s], scale, levels);
+      }
+      if (is_less) changed.push_back(s);
     }
-    inlay.faces = thin_out(positions, inlay.faces, stays, distance);
+    if (!changed.empty() || !bad.is_beyond) return changed;
+    const Ball everywhere{Vec3::Zero(), std::numeric_limits<double>::infinity()};
+    for (std::size_t s = 0; s < sites_.size(); ++s) {  // it is not known where
+      if (thinnings[s].lessen({everywhere}, 1, levels)) changed.push_back(s);
+    }
+    return changed;
+  }
+
+  /// [sites] around faces of their inlays, and beside these.
+  [[nodiscard]] std::vector<std::vector<Ball>> balls_around(const Inlaid& inlaid,
+                                                            const std::vector<Index>& faces) const {
+    std::vector<std::vector<Ball>> result(sites_.size());
+    for (const Index f : faces) {
+      const Ball ball = ball_around(inlaid, f);
+      for (const std::size_t s : sites_at(inlaid, f)) result[s].push_back(ball);
+    }
+    return result;
+  }
+
+  /// Around a face, through its farthest corner.
+  [[nodiscard]] Ball ball_around(const Inlaid& inlaid, Index face) const {
+    const PolyMesh& mesh = inlaid.quads.mesh;
+    Ball ball{Vec3::Zero(), 0};
+    for (const Index v : mesh.face(face)) ball.middle += mesh.positions[v];
+    ball.middle /= static_cast<double>(mesh.face(face).size());
+    for (const Index v : mesh.face(face)) {
+      ball.radius = std::max(ball.radius, (mesh.positions[v] - ball.middle).norm());
+    }
+    ball.middle -= surfaces_.mesh().origin;
+    return ball;
   }
 
   [[nodiscard]] Inlaid with_inlays() const {
@@ -355,8 +385,8 @@ class Inlays {
 
   ToleranceProof& proof_;
   const QuadMesh& base_;
-  CrossingPlaces* crossing_;
-  Limits limits_;
+  CrossingPlaces& crossing_;
+  Goal goal_;
   ComparedSurfaces surfaces_;
   SurfaceLines lines_;
   InlayCutter cutter_;
@@ -367,13 +397,14 @@ class Inlays {
 
 }  // namespace
 
-bool inlay_beyond(ToleranceProof& proof, const std::vector<Excess>& excess, QuadMesh& quads) {
+bool inlay_beyond(ToleranceProof& proof, const std::vector<Excess>& excess,
+                  CrossingPlaces& crossing, QuadMesh& quads) {
   std::vector<Index> cells;
   for (const Target& target : cells_beyond(proof.input()->mesh, quads, excess, true)) {
     cells.push_back(target.face);
   }
   if (cells.size() > kMostBad) return false;
-  Inlays inlays(proof, quads, nullptr, kLimitsBeyond);
+  Inlays inlays(proof, quads, crossing, kWithin);
   const bool is_within = inlays.grow(cells);
   if (is_within) {
     inlays.thin();
@@ -385,7 +416,7 @@ bool inlay_beyond(ToleranceProof& proof, const std::vector<Excess>& excess, Quad
 void inlay_crossing(ToleranceProof& proof, CrossingPlaces& crossing, QuadMesh& quads) {
   const std::vector<Index> cells = crossing.faces_of(quads.mesh);
   if (cells.empty() || cells.size() > kMostBad) return;
-  Inlays inlays(proof, quads, &crossing, kLimitsCrossing);
+  Inlays inlays(proof, quads, crossing, kUncrossed);
   if (!inlays.grow(cells)) inlays.drop_bad();
   inlays.thin();
   inlays.drop_large();

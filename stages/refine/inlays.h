@@ -15,10 +15,12 @@ namespace strake {
 // vertices go that the tolerance does not need (thin_out.h).
 
 /// Brings a result within the tolerance.
-/// \param excess  what is beyond, not empty
+/// \param excess    what is beyond, not empty
+/// \param crossing  inlays are not thinned out so far that their faces cross others
 /// \return whether it could be; else `quads` is as it was. \post the same topology; attributes are
 ///         not carried over
-bool inlay_beyond(ToleranceProof& proof, const std::vector<Excess>& excess, QuadMesh& quads);
+bool inlay_beyond(ToleranceProof& proof, const std::vector<Excess>& excess,
+                  CrossingPlaces& crossing, QuadMesh& quads);
 
 /// Makes faces fewer that cross others although the input does not, where that can be done within
 /// the tolerance. \pre all of `quads` is within it. \post likewise, and as for `inlay_beyond`

@@ -56,13 +56,18 @@ constexpr double kVerticesPerCell = 1.5;
 class Refinement {
  public:
   Refinement(const TriMesh& mesh, QuadMesh quads)
-      : mesh_(mesh), quads_(std::move(quads)), points_(mesh), max_sides_(kLeastMaxSides) {
+      : mesh_(mesh),
+        quads_(std::move(quads)),
+        points_(mesh),
+        crossing_(mesh),
+        max_sides_(kLeastMaxSides) {
     for (Index f = 0; f < quads_.mesh.face_count(); ++f) {
       max_sides_ = std::max(max_sides_, quads_.mesh.face(f).size());
     }
   }
 
   [[nodiscard]] const QuadMesh& quads() const { return quads_; }
+  CrossingPlaces& crossing() { return crossing_; }
   /// Goes on from another result.
   void take(QuadMesh quads) { quads_ = std::move(quads); }
 
@@ -97,8 +102,7 @@ class Refinement {
   /// Changes what may be better in a result that is within the tolerance.
   void finish(ToleranceProof& proof) {
     refill_within(proof, quads_);
-    CrossingPlaces crossing(mesh_);
-    inlay_crossing(proof, crossing, quads_);
+    inlay_crossing(proof, crossing_, quads_);
     pair_odd_cells_within(proof, points_, quads_);
     cut_cells_in_doubt(proof, quads_);
   }
@@ -229,6 +233,7 @@ class Refinement {
   const TriMesh& mesh_;
   QuadMesh quads_;
   SurfacePoints points_;
+  CrossingPlaces crossing_;
   std::size_t max_sides_;
   std::vector<Vec3> positions_;  ///< [V] relative to the mesh's origin
   std::vector<Vec3> normals_;    ///< [V] sums over the faces around
@@ -291,7 +296,7 @@ std::int64_t refine_to_tolerance(const TriMesh& mesh, Refinement& refinement,
     }
     if (round == options.rounds || round - fewest_round == kRoundsInVain) {
       if (options.partly) return round;
-      if (options.rounds > 0 && inlay_beyond(proof, fewest, best)) {
+      if (options.rounds > 0 && inlay_beyond(proof, fewest, refinement.crossing(), best)) {
         report.set("refine.places_beyond", std::size_t{0});
         refinement.take(std::move(best));
         refinement.finish(proof);

@@ -21,11 +21,32 @@ struct Traits : OpenMesh::DefaultTraits {
 };
 using Patch = OpenMesh::TriMesh_ArrayKernelT<Traits>;
 
-/// Largest ratio of sides that a collapse may lead to.
-constexpr float kLargestAspect = 4;
+/// Largest ratio of the longest side to the height over it that a collapse may lead to. Of a
+/// regular grid of halved squares each leads to 5.
+constexpr float kLargestAspect = 5.5;
 /// Share of the distance by which turning an edge may move the surface.
 constexpr double kLargestGap = 0.25;
 constexpr int kMostTurns = 10;  ///< times that all edges are looked at
+
+/// OpenMesh's distance, another one for each vertex that may go.
+template <class MeshT>
+class LocalHausdorff : public OpenMesh::Decimater::ModHausdorffT<MeshT> {
+ public:
+  DECIMATING_MODULE(LocalHausdorff, MeshT, LocalHausdorff);
+
+  explicit LocalHausdorff(MeshT& patch) : OpenMesh::Decimater::ModHausdorffT<MeshT>(patch) {}
+
+  /// \param distance  [V]
+  void set_distances(std::vector<double> distance) { distance_ = std::move(distance); }
+
+  float collapse_priority(const CollapseInfo& edge) override {
+    this->set_tolerance(distance_[edge.v0.idx()]);  // of the vertex that would go
+    return OpenMesh::Decimater::ModHausdorffT<MeshT>::collapse_priority(edge);
+  }
+
+ private:
+  std::vector<double> distance_;
+};
 
 /// Allows no new edge between two vertices of the outline: the mesh around may have it.
 template <class MeshT>
@@ -71,14 +92,15 @@ std::optional<Patch> scaled_patch(const std::vector<Vec3>& positions,
   return patch;
 }
 
-void decimate(Patch& patch, double distance) {
+/// \param distance  [V]
+void decimate(Patch& patch, const std::vector<double>& distance) {
   OpenMesh::Decimater::DecimaterT<Patch> decimater(patch);
   OpenMesh::Decimater::ModQuadricT<Patch>::Handle quadrics;
   decimater.add(quadrics);
   decimater.module(quadrics).unset_max_err();
-  OpenMesh::Decimater::ModHausdorffT<Patch>::Handle hausdorff;
+  LocalHausdorff<Patch>::Handle hausdorff;
   decimater.add(hausdorff);
-  decimater.module(hausdorff).set_tolerance(distance);
+  decimater.module(hausdorff).set_distances(distance);
   OpenMesh::Decimater::ModNormalFlippingT<Patch>::Handle flipping;
   decimater.add(flipping);
   OpenMesh::Decimater::ModAspectRatioT<Patch>::Handle shapes;
@@ -124,12 +146,14 @@ bool is_better_turned(const Patch& patch, OpenMesh::SmartEdgeHandle edge, double
 
 /// Turns edges for better triangles. A vertex on an edge of the triangle beside it makes a sliver
 /// with that edge; turned, it divides that triangle.
-void turn_edges(Patch& patch, double gap) {
+/// \param distance  [V]
+void turn_edges(Patch& patch, const std::vector<double>& distance) {
   for (int round = 0; round < kMostTurns; ++round) {
     bool any = false;
     for (const auto edge : patch.edges()) {
       if (patch.is_boundary(edge) || !may_be_turned(patch, edge)) continue;
-      if (!is_better_turned(patch, edge, gap)) continue;
+      const double most = std::max(distance[edge.v0().idx()], distance[edge.v1().idx()]);
+      if (!is_better_turned(patch, edge, kLargestGap * most)) continue;
       patch.flip(edge);
       any = true;
     }
@@ -141,21 +165,21 @@ void turn_edges(Patch& patch, double gap) {
 
 std::vector<std::array<Index, 3>> thin_out(const std::vector<Vec3>& positions,
                                            const std::vector<std::array<Index, 3>>& triangles,
-                                           const std::vector<std::uint8_t>& stays,
-                                           double distance) {
+                                           const std::vector<double>& distance) {
   double size = 0;
   for (const Vec3& p : positions) size = std::max(size, (p - positions.front()).norm());
   const double scale = 1 / size;
   std::optional<Patch> scaled = scaled_patch(positions, triangles, scale);
   if (!scaled) return triangles;
   Patch& patch = *scaled;
+  std::vector<double> scaled_distance;
   for (const auto v : patch.vertices()) {
-    patch.status(v).set_locked(stays[v.idx()] != 0 || patch.is_boundary(v));
+    scaled_distance.push_back(scale * distance[v.idx()]);
+    patch.status(v).set_locked(distance[v.idx()] == 0 || patch.is_boundary(v));
   }
-  const double gap = kLargestGap * scale * distance;
-  turn_edges(patch, gap);
-  decimate(patch, scale * distance);
-  turn_edges(patch, gap);
+  turn_edges(patch, scaled_distance);
+  decimate(patch, scaled_distance);
+  turn_edges(patch, scaled_distance);
 
   std::vector<std::array<Index, 3>> result;
   for (const auto face : patch.faces()) {  // those left; no garbage collection: numbers stay

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <vector>
 
 #include "common/core/types.h"
@@ -12,12 +11,11 @@ namespace strake {
 /// went are within a distance of what is left (OpenMesh's quadrics and Hausdorff distance), and
 /// turns edges where that makes better triangles.
 /// \param positions  [V] any length unit
-/// \param stays      [V] 1: vertices that stay, with the edges between them. So do those on the
-///                   outline, and no edge is made between two of these
-/// \param distance   in the unit of positions, positive
+/// \param distance   [V] around a vertex, in that unit; 0: it stays, with the edges to others that
+///                   do. So do those on the outline, and no edge is made between two of these
 /// \return the triangles that are left; all as they are where they are no manifold
 std::vector<std::array<Index, 3>> thin_out(const std::vector<Vec3>& positions,
                                            const std::vector<std::array<Index, 3>>& triangles,
-                                           const std::vector<std::uint8_t>& stays, double distance);
+                                           const std::vector<double>& distance);
 
 }  // namespace strake

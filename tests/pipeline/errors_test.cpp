@@ -46,6 +46,19 @@ TEST_F(Errors, MissingAndUnreadableFiles) {
   must_fail(kBadInput, "strake info nowhere.obj", "nowhere.obj");
 }
 
+/// Whoever keeps only the last line of what is said finds the error there.
+TEST_F(Errors, FiguresThatCannotBeWrittenAreNotPrinted) {
+  run_chain("torus.ply", "torus-");
+  const std::string evaluate = "strake-evaluate torus-mesh.hdf torus-quads.hdf";
+  EXPECT_NE(must(evaluate), "");
+  for (const std::string option : {"-o", "--report"}) {
+    const Outcome outcome = run(evaluate + " " + option + " nowhere/figures.json");
+    EXPECT_EQ(outcome.exit_code, kBadInput) << option;
+    EXPECT_EQ(outcome.out, "") << option;
+    EXPECT_NE(outcome.err.find("nowhere"), std::string::npos) << option;
+  }
+}
+
 TEST_F(Errors, FilesOfAnotherKind) {
   must_fail(kBadInput, "strake-tensor torus.ply -o t.hdf", "torus.ply");
   must_fail(kBadInput, "strake-smooth mesh.hdf mesh.hdf -o f.hdf", "'tensor' is needed");

@@ -15,6 +15,7 @@
 #include "stages/refine/refine.h"
 #include "stages/refine/surface_part.h"
 #include "stages/refine/thin_out.h"
+#include "stages/refine/thinning.h"
 #include "tests/support/result_cases.h"
 
 namespace strake {
@@ -107,10 +108,10 @@ Case sheet(double bump) {
 }
 
 TEST(ThinOut, LeavesOnlyWhatTheDistanceNeeds) {
-  for (const auto& [bump, is_kept] : {std::pair{0.2, true}, {0.02, false}}) {
+  for (const auto& [bump, is_kept] : {std::pair{0.2, true}, {0.02, false}, {0.0, false}}) {
     const TriMesh mesh = sheet(bump).mesh;
-    const std::vector<std::uint8_t> stays(mesh.positions.size(), 0);
-    const Triangles left = thin_out(mesh.positions, mesh.faces, stays, 0.05);
+    const std::vector<double> distance(mesh.positions.size(), 0.05);
+    const Triangles left = thin_out(mesh.positions, mesh.faces, distance);
     std::set<Index> vertices;
     for (const auto& t : left) vertices.insert(t.begin(), t.end());
     const Index middle = 4 * 9 + 4;
@@ -127,12 +128,25 @@ TEST(ThinOut, LeavesOnlyWhatTheDistanceNeeds) {
 
 TEST(ThinOut, KeepsWhatStays) {
   const TriMesh mesh = sheet(0).mesh;
-  std::vector<std::uint8_t> stays(mesh.positions.size(), 0);
+  std::vector<double> distance(mesh.positions.size(), 0.05);
   const Index kept = 2 * 9 + 3;
-  stays[kept] = 1;
-  const Triangles left = thin_out(mesh.positions, mesh.faces, stays, 0.05);
+  distance[kept] = 0;
+  const Triangles left = thin_out(mesh.positions, mesh.faces, distance);
   EXPECT_TRUE(std::ranges::any_of(
       left, [&](const auto& t) { return std::ranges::find(t, kept) != t.end(); }));
+}
+
+TEST(ThinOut, TakesTheDistanceOfThePlace) {
+  // Waves across the sheet, which need their vertices where the distance is below their height.
+  const TriMesh mesh = grid(16, 1, [](double x, double) { return 0.01 * std::sin(40 * x); }).mesh;
+  const auto is_below = [&](Index v) { return mesh.positions[v].y() + mesh.origin.y() < 0.5; };
+  std::vector<double> distance;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) distance.push_back(is_below(v) ? 0.03 : 0.001);
+  std::set<Index> left;
+  for (const auto& t : thin_out(mesh.positions, mesh.faces, distance))
+    left.insert(t.begin(), t.end());
+  const auto below = std::ranges::count_if(left, is_below);
+  EXPECT_LT(2 * below, std::ssize(left) - below);
 }
 
 TEST(ThinOut, JoinsNoTwoVerticesOfTheOutline) {
@@ -161,8 +175,8 @@ TEST(ThinOut, JoinsNoTwoVerticesOfTheOutline) {
                          (positions[a].x() == 0 || positions[a].x() == kLength);
     return std::abs(positions[a].y() - positions[b].y()) == 2 && !at_ends;
   };
-  const std::vector<std::uint8_t> stays(positions.size(), 0);
-  const Triangles left = thin_out(positions, strip, stays, 0.1);
+  const std::vector<double> distance(positions.size(), 0.1);
+  const Triangles left = thin_out(positions, strip, distance);
   EXPECT_LT(left.size(), strip.size());
   for (const auto& [a, b, c] : left) {
     EXPECT_FALSE(is_chord(a, b) || is_chord(b, c) || is_chord(c, a)) << a << " " << b << " " << c;
@@ -179,14 +193,19 @@ TEST(ThinOut, TurnsSliversIntoTheTriangleBeside) {
     return std::ranges::any_of(
         triangles, [&](const auto& t) { return std::set<Index>(t.begin(), t.end()) == corners; });
   };
-  const Triangles turned = thin_out(around, disk, {0, 0, 0, 1, 0, 0, 0}, 1e-3);
+  const auto but = [](std::initializer_list<std::size_t> stay) {
+    std::vector<double> distance(7, 1e-3);
+    for (const std::size_t v : stay) distance[v] = 0;
+    return distance;
+  };
+  const Triangles turned = thin_out(around, disk, but({3}));
   EXPECT_EQ(turned.size(), disk.size());
   EXPECT_TRUE(is_in(turned, {0, 3, 2}) && is_in(turned, {1, 2, 3}));
   // An edge between vertices that stay may be part of a line.
-  EXPECT_TRUE(is_in(thin_out(around, disk, {1, 1, 0, 1, 0, 0, 0}, 1e-3), {0, 1, 3}));
+  EXPECT_TRUE(is_in(thin_out(around, disk, but({0, 1, 3})), {0, 1, 3}));
   // Of these two triangles it would join two vertices of the outline.
   const Triangles alone = {{0, 1, 2}, {1, 0, 3}};
-  EXPECT_EQ(thin_out({around.begin(), around.begin() + 4}, alone, {0, 0, 0, 0}, 1e-3), alone);
+  EXPECT_EQ(thin_out({around.begin(), around.begin() + 4}, alone, {1e-3, 1e-3, 1e-3, 1e-3}), alone);
 }
 
 TEST(InlayCutter, PutsTheInputOverCells) {
@@ -240,6 +259,46 @@ TEST(InlayCutter, CutsNoneOfTwoDisksOrOfAll) {
   const std::optional<Inlay> inlay = cutter.cut(ring);
   ASSERT_TRUE(inlay.has_value());  // with what it encloses
   EXPECT_EQ(inlay->cells.size(), 9u);
+}
+
+TEST(Thinning, LeavesMoreInBalls) {
+  const Case c = grid(64, 8, terrain);
+  const ComparedSurfaces surfaces(c.mesh, c.quads);
+  const InlayCutter cutter(surfaces, c.quads);
+  std::set<Index> cells = {3 * 8 + 4};
+  cutter.add_ring(cells);
+  const std::optional<Inlay> inlay = cutter.cut(cells);
+  ASSERT_TRUE(inlay.has_value());
+  Thinning thinning(surfaces, SurfaceLines(c.mesh), *inlay);
+  const std::vector<Vec3> positions = positions_of(*inlay, surfaces);
+  const Ball ball{surfaces.positions()[4 * 9 + 5], 0.08};  // a corner of the cell in the middle
+  const auto shares_left = [&] {                           // of vertices in the ball, and elsewhere
+    const auto inside = static_cast<Index>(inlay->outline.size());
+    std::set<Index> left;
+    for (const auto& t : thinning.faces(0.01)) left.insert(t.begin(), t.end());
+    std::array<double, 2> count = {0, 0};
+    std::array<double, 2> kept = {0, 0};
+    for (Index v = inside; v < std::ssize(positions); ++v) {
+      const std::size_t where = (positions[v] - ball.middle).norm() <= ball.radius ? 0 : 1;
+      ++count[where];
+      if (left.contains(v)) ++kept[where];
+    }
+    return std::array{kept[0] / count[0], kept[1] / count[1]};
+  };
+  std::array<double, 2> before = shares_left();
+  EXPECT_LT(before[0], 0.3);
+  EXPECT_LT(before[1], 0.3);
+  for (std::size_t level = 0; level < Thinning::kLevels; ++level) {
+    EXPECT_TRUE(thinning.lessen({ball}, 1, 1));
+    const std::array<double, 2> after = shares_left();
+    EXPECT_GE(after[0], before[0]);
+    EXPECT_LT(after[1], 0.4);
+    before = after;
+  }
+  EXPECT_EQ(before[0], 1);
+  EXPECT_FALSE(thinning.lessen({ball}, 1, 1));
+  EXPECT_TRUE(thinning.lessen({ball}, 100, Thinning::kLevels));
+  EXPECT_EQ(thinning.faces(0.01), inlay->faces);
 }
 
 /// The result with an inlay in it.
@@ -352,11 +411,12 @@ TEST(InlayCutter, GoesInRings) {
 
 TEST(Inlays, BringWhatIsBeyondWithinTheTolerance) {
   const Case c = needle();
+  CrossingPlaces crossing(c.mesh);
   ToleranceProof proof(std::make_shared<const InputSurface>(c.mesh), 0.004);
   QuadMesh quads = c.quads;
   const auto excess = proof.check(ComparedSurfaces(proof.input(), quads));
   ASSERT_FALSE(excess.empty());
-  ASSERT_TRUE(inlay_beyond(proof, excess, quads));
+  ASSERT_TRUE(inlay_beyond(proof, excess, crossing, quads));
   EXPECT_TRUE(check_tolerance(ComparedSurfaces(c.mesh, quads), 0.004).empty());
   const PolyTopology topology = analyse(quads.mesh);
   EXPECT_TRUE(topology.is_oriented_manifold());
@@ -386,11 +446,12 @@ TEST(Inlays, DoWhatDividingLeaves) {
 
 TEST(Inlays, LeaveAResultThatTheyCannotMend) {
   const Case c = grid(32, 1, [](double x, double) { return x * (1 - x); });  // one cell is all
+  CrossingPlaces crossing(c.mesh);
   ToleranceProof proof(std::make_shared<const InputSurface>(c.mesh), 0.01);
   QuadMesh quads = c.quads;
   const auto excess = proof.check(ComparedSurfaces(proof.input(), quads));
   ASSERT_FALSE(excess.empty());
-  EXPECT_FALSE(inlay_beyond(proof, excess, quads));
+  EXPECT_FALSE(inlay_beyond(proof, excess, crossing, quads));
   EXPECT_EQ(quads.mesh.corners, c.quads.mesh.corners);
 }
 
