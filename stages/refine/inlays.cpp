@@ -42,8 +42,11 @@ constexpr int kRoundsInVain = 4;
 constexpr std::size_t kMostBad = 3000;
 /// Times that inlays are thinned out by the next distance, not by none, where they have faults.
 constexpr int kMostThinnings = 12;
+/// Times that inlays are thinned out less in vain: no fewer faces cross others.
+constexpr int kThinningsInVain = 3;
 /// Largest growth of the ball around a fault in which inlays are thinned out less.
 constexpr double kLargestScale = 1024;
+const Ball kEverywhere = {Vec3::Zero(), std::numeric_limits<double>::infinity()};
 
 /// Where an inlay is to be.
 struct Site {
@@ -132,18 +135,40 @@ class Inlays {
     });
   }
 
-  /// Takes vertices out of inlays, fewer around the faults that they get. \pre they have none
+  /// Takes vertices out of inlays, fewer around faces that are beyond the tolerance or cross others
+  /// then; of what is within it, that is taken of which the fewest cross. \pre they have no faults
   void thin() {
     std::vector<Thinning> thinnings;
     for (const Site& site : sites_) thinnings.emplace_back(surfaces_, lines_, site.inlay);
     std::vector<std::size_t> changed(sites_.size());
     std::iota(changed.begin(), changed.end(), 0);
-    for (int time = 0; !changed.empty(); ++time) {
+    std::size_t fewest = std::numeric_limits<std::size_t>::max();
+    std::vector<Site> best;
+    int in_vain = 0;
+    for (int time = 0; !changed.empty() && in_vain < kThinningsInVain; ++time) {
       for (const std::size_t s : changed) {
         sites_[s].inlay.faces = thinnings[s].faces(proof_.tolerance());
       }
-      changed = thin_less(with_inlays(), time < kMostThinnings ? 1 : Thinning::kLevels, thinnings);
+      const Inlaid now = with_inlays();
+      const Faults bad = beyond(now);
+      std::vector<Index> crossing = crossing_.faces_of(now.quads.mesh);
+      std::erase_if(crossing, [&](Index f) { return now.site[f] == kNone; });
+      if (!bad.any() && crossing.size() < fewest) {
+        fewest = crossing.size();
+        best = sites_;
+        in_vain = 0;
+      } else if (!bad.any()) {
+        ++in_vain;
+      }
+      const std::size_t levels = time < kMostThinnings ? 1 : Thinning::kLevels;
+      changed =
+          lessen(thinnings, balls_around(now, bad.faces), balls_around(now, crossing), levels);
+      if (!changed.empty() || !bad.any()) continue;
+      for (std::size_t s = 0; s < sites_.size(); ++s) {  // it is not known where
+        if (thinnings[s].lessen({kEverywhere}, 1, levels)) changed.push_back(s);
+      }
     }
+    sites_ = std::move(best);
   }
 
   /// The result with the inlays there are.
@@ -294,29 +319,22 @@ class Inlays {
     return any;
   }
 
-  /// Thins inlays out less around their faces that cross others, which they may have done before,
-  /// and around faces beyond the tolerance, in as large a ball as it takes.
-  /// \param levels  by how many
+  /// Thins inlays out less around faces beyond the tolerance, in as large balls as it takes, and
+  /// around faces that cross others, which they may have done before.
+  /// \param beyond, crossing  [sites]
+  /// \param levels            changes to smaller distances
   /// \return the inlays for which that changes anything
-  std::vector<std::size_t> thin_less(const Inlaid& now, std::size_t levels,
-                                     std::vector<Thinning>& thinnings) {
-    const Faults bad = beyond(now);
-    std::vector<Index> crossing = crossing_.faces_of(now.quads.mesh);
-    std::erase_if(crossing, [&](Index f) { return now.site[f] == kNone; });
-    const std::vector<std::vector<Ball>> around_beyond = balls_around(now, bad.faces);
-    const std::vector<std::vector<Ball>> around_crossing = balls_around(now, crossing);
+  static std::vector<std::size_t> lessen(std::vector<Thinning>& thinnings,
+                                         const std::vector<std::vector<Ball>>& beyond,
+                                         const std::vector<std::vector<Ball>>& crossing,
+                                         std::size_t levels) {
     std::vector<std::size_t> changed;
-    for (std::size_t s = 0; s < sites_.size(); ++s) {
-      bool is_less = thinnings[s].lessen(around_crossing[s], 1, levels);
+    for (std::size_t s = 0; s < thinnings.size(); ++s) {
+      bool is_less = thinnings[s].lessen(crossing[s], 1, levels);
       for (double scale = 1; !is_less && scale <= kLargestScale; scale *= 2) {
-        is_less = thinnings[s].lessen(around_beyond[s], scale, levels);
+        is_less = thinnings[s].lessen(beyond[s], scale, levels);
       }
       if (is_less) changed.push_back(s);
-    }
-    if (!changed.empty() || !bad.is_beyond) return changed;
-    const Ball everywhere{Vec3::Zero(), std::numeric_limits<double>::infinity()};
-    for (std::size_t s = 0; s < sites_.size(); ++s) {  // it is not known where
-      if (thinnings[s].lessen({everywhere}, 1, levels)) changed.push_back(s);
     }
     return changed;
   }
