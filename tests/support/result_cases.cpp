@@ -1,8 +1,61 @@
 #include "tests/support/result_cases.h"
 
 #include <Eigen/Geometry>
+#include <array>
 
 namespace strake::support {
+
+Case sheets(Index n, Index cells, const std::vector<Height>& heights) {
+  const auto vertex = [](Index sheet, Index i, Index j, Index count) {
+    return (sheet * (count + 1) + j) * (count + 1) + i;
+  };
+  PolyMesh soup;
+  const auto count = static_cast<Index>(heights.size());
+  for (Index s = 0; s < count; ++s) {
+    for (Index j = 0; j <= n; ++j) {
+      for (Index i = 0; i <= n; ++i) {
+        const double x = double(i) / n;
+        const double y = double(j) / n;
+        soup.positions.emplace_back(x, y, heights[s](x, y));
+      }
+    }
+    for (Index j = 0; j < n; ++j) {
+      for (Index i = 0; i < n; ++i) {
+        const Index a = vertex(s, i, j, n);
+        const Index b = vertex(s, i + 1, j, n);
+        const Index c = vertex(s, i + 1, j + 1, n);
+        const Index d = vertex(s, i, j + 1, n);
+        soup.add_face(std::array<Index, 3>{a, b, c});
+        soup.add_face(std::array<Index, 3>{a, c, d});
+      }
+    }
+  }
+  Case result;
+  result.mesh = plain_tri_mesh(soup);
+  const Index step = n / cells;
+  for (Index s = 0; s < count; ++s) {
+    for (Index j = 0; j <= cells; ++j) {
+      for (Index i = 0; i <= cells; ++i) {
+        const Index v = vertex(s, i * step, j * step, n);
+        const Index h = result.mesh.vertex_out[v];
+        std::array<double, 3> barycentric = {0, 0, 0};
+        barycentric[h % 3] = 1;
+        result.quads.mesh.positions.push_back(soup.positions[v]);
+        result.quads.provenance.face.push_back(TriMesh::face_of(h));
+        result.quads.provenance.barycentric.push_back(barycentric);
+        result.quads.provenance.lines.push_back({kNone, kNone});
+      }
+    }
+    for (Index j = 0; j < cells; ++j) {
+      for (Index i = 0; i < cells; ++i) {
+        result.quads.mesh.add_face(
+            std::array<Index, 4>{vertex(s, i, j, cells), vertex(s, i + 1, j, cells),
+                                 vertex(s, i + 1, j + 1, cells), vertex(s, i, j + 1, cells)});
+      }
+    }
+  }
+  return result;
+}
 
 Case on_triangles(const PolyMesh& faces, const FaceTriangles& cut) {
   PolyMesh surface;

@@ -23,6 +23,7 @@ namespace {
 
 using support::Case;
 using support::grid;
+using support::sheets;
 using Triangles = std::vector<std::array<Index, 3>>;
 
 double terrain(double x, double y) { return 0.05 * std::sin(9 * x) * std::cos(7 * y); }
@@ -426,6 +427,27 @@ TEST(Inlays, BringWhatIsBeyondWithinTheTolerance) {
     const Vec3 foot = place_of(c.mesh, {quads.provenance.face[v], quads.provenance.barycentric[v]});
     EXPECT_LT((foot - quads.mesh.positions[v]).norm(), 1e-12);
   }
+}
+
+TEST(Inlays, AreNotThinnedOutThroughWhatIsNear) {
+  // A valley with a pit, and a sheet closely above it: longer edges than those of cells would cut
+  // across the valley through that sheet.
+  const auto valley = [](double x) { return 0.5 * (x - 0.5) * (x - 0.5); };
+  const auto below = [&](double x, double y) {
+    return valley(x) - (std::hypot(x - 0.46875, y - 0.46875) < 0.005 ? 0.1 : 0.0);
+  };
+  const auto above = [&](double x, double) { return valley(x) + 0.0003; };
+  const Case c = sheets(64, 16, {below, above});
+  constexpr double kTolerance = 0.01;
+  CrossingPlaces crossing(c.mesh);
+  ToleranceProof proof(std::make_shared<const InputSurface>(c.mesh), kTolerance);
+  QuadMesh quads = c.quads;
+  const auto excess = proof.check(ComparedSurfaces(proof.input(), quads));
+  ASSERT_FALSE(excess.empty());
+  ASSERT_TRUE(crossing.faces_of(quads.mesh).empty());
+  ASSERT_TRUE(inlay_beyond(proof, excess, crossing, quads));
+  EXPECT_TRUE(crossing.faces_of(quads.mesh).empty());
+  EXPECT_TRUE(check_tolerance(ComparedSurfaces(c.mesh, quads), kTolerance).empty());
 }
 
 /// One round of dividing does not reach a needle.
