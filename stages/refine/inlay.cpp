@@ -203,23 +203,25 @@ Index InlayCutter::neighbour(Index cell, Index a, Index b) const {
 }
 
 std::optional<InlayCutter::Patch> InlayCutter::patch_of(std::set<Index> cells) const {
-  const auto for_neighbours = [&](Index f, const auto& visit) {
+  const auto for_sides = [&](Index f, const auto& visit) {
     const std::span<const Index> face = quads_.mesh.face(f);
     for (std::size_t i = 0; i < face.size(); ++i) {
-      visit(neighbour(f, face[i], face[(i + 1) % face.size()]));
+      const Index next = face[(i + 1) % face.size()];
+      visit(face[i], next, neighbour(f, face[i], next));
     }
   };
   for (int i = 0; i < kMostClosings; ++i) {
-    add_enclosed(cells, for_neighbours);
+    add_enclosed(cells, [&](Index f, const auto& visit) {
+      for_sides(f, [&](Index /*from*/, Index /*to*/, Index beyond) { visit(beyond); });
+    });
     std::vector<Polygon> faces;
     std::set<std::pair<Index, Index>> boundary;
     for (const Index f : cells) {
       const std::span<const Index> face = quads_.mesh.face(f);
       faces.emplace_back(face.begin(), face.end());
-      for (std::size_t k = 0; k < face.size(); ++k) {
-        const Index next = face[(k + 1) % face.size()];
-        if (neighbour(f, face[k], next) == kNone) boundary.emplace(face[k], next);
-      }
+      for_sides(f, [&](Index from, Index to, Index beyond) {
+        if (beyond == kNone) boundary.emplace(from, to);
+      });
     }
     PatchOutline outline = patch_outline(faces, {}, [&](Index a, Index b) {
       return boundary.contains({a, b});

@@ -33,9 +33,9 @@ class InlayCutter {
   /// The input's faces over some cells, and over what these enclose.
   ///
   /// Faces larger than cells are divided. Over the cells lie those whose corners are all nearer to
-  /// them than to the cells around, of cells that face the same way.
+  /// them than to the cells around, of cells that face the same way. The cells may reach the
+  /// boundary, and go around handles and loops of the boundary.
   /// \param cells  of the result
-  /// The cells may reach the boundary, and go around handles and loops of the boundary.
   /// \return nothing where the faces over these cells are not connected in the same way
   [[nodiscard]] std::optional<Inlay> cut(const std::set<Index>& cells) const;
 
