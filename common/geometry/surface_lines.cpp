@@ -87,7 +87,8 @@ std::vector<SurfaceLines::Place> SurfaceLines::way(const Place& from, const Surf
     });
     if (ends_here) return passed;
     const Index next = next_on_line(at.halfedge);
-    if (next == kNone) break;
+    const bool is_around = at.halfedge == from.halfedge && passed.size() > 2;
+    if (next == kNone || is_around) break;  // a loop of no length would have no end
     at = {next, 0};
   }
   return {};

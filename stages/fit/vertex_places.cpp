@@ -91,6 +91,7 @@ Vec3 VertexPlaces::at(const LinePlace& place) const {
 }
 
 VertexPlaces::LinePlace VertexPlaces::slide(LinePlace place, double distance) const {
+  const Index start = mesh_.edge_of(place.halfedge);
   bool forward = distance >= 0;
   double left = std::abs(distance);
   while (true) {
@@ -107,7 +108,8 @@ VertexPlaces::LinePlace VertexPlaces::slide(LinePlace place, double distance) co
     place.along = forward ? 1 : 0;
     const Index vertex = forward ? mesh_.to(place.halfedge) : mesh_.from(place.halfedge);
     const Index next = other_barrier(vertex, place.halfedge);
-    if (next == kNone) return place;
+    // Around a loop it comes back: one of no length would be gone around for ever.
+    if (next == kNone || mesh_.edge_of(next) == start) return place;
     forward = mesh_.from(next) == vertex;
     place.halfedge = next;
     place.along = forward ? 0 : 1;
