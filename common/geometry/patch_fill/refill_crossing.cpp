@@ -251,7 +251,7 @@ class Refilling {
     pinched.insert(pinched.end(), outline.pinched.begin(), outline.pinched.end());
     if (!outline.is_disk()) return {};
     Polygon& ring = outline.paths.front().vertices;
-    if (ring.size() > kMostSides) return {};
+    if (ring.size() > kMostSides || is_around_one_face(ring)) return {};
     const std::set<Index> around(ring.begin(), ring.end());
     const auto may_go = [&](Index v) {
       return is_touched_[v] == 0 && (around.contains(v) || may_be_lost(v, kept));
@@ -259,6 +259,15 @@ class Refilling {
     const bool all_may_go = std::ranges::all_of(
         faces, [&](const Polygon& polygon) { return std::ranges::all_of(polygon, may_go); });
     return all_may_go ? std::move(ring) : Polygon{};
+  }
+
+  /// Whether all that is beyond an outline is one face: a filling would lie on its back.
+  [[nodiscard]] bool is_around_one_face(const Polygon& outline) const {
+    const Index beyond = neighbour(outline[0], outline[1]);
+    for (std::size_t i = 1; i < outline.size(); ++i) {
+      if (neighbour(outline[i], outline[(i + 1) % outline.size()]) != beyond) return false;
+    }
+    return beyond != kNone;
   }
 
   bool fill_outline(const std::vector<Index>& part, const Polygon& outline, Kept kept,

@@ -233,6 +233,43 @@ TEST(RefillCrossingFaces, KeepsFeatureLines) {
   for (const auto& [from, to] : ridge) EXPECT_EQ(to - from, kCell);
 }
 
+/// Faces between the vertices of a surface, as a result.
+QuadMesh on_vertices(const TriMesh& mesh, const PolyMesh& faces) {
+  QuadMesh quads;
+  quads.mesh = faces;
+  for (Index v = 0; v < faces.vertex_count(); ++v) {
+    const Index h = mesh.vertex_out[v];
+    quads.provenance.face.push_back(TriMesh::face_of(h));
+    quads.provenance.barycentric.push_back({0, 0, 0});
+    quads.provenance.barycentric.back()[h % 3] = 1;
+    quads.provenance.lines.push_back({kNone, kNone});
+  }
+  return quads;
+}
+
+/// A tetrahedron whose lower corner hangs through a sheet below: without its three lower faces, the
+/// upper one would be left with a face on its back.
+TEST(Refill, LeavesNothingWithoutVolume) {
+  PolyMesh faces;
+  faces.positions = {Vec3(0, 0, 0.5), Vec3(1, 0, 0.5), Vec3(0, 1, 0.5), Vec3(0.3, 0.3, 0.1),
+                     Vec3(-2, -2, 0), Vec3(3, -2, 0),  Vec3(0, 3, 0)};
+  for (const std::array<Index, 3>& f :
+       {std::array<Index, 3>{0, 1, 2}, {1, 0, 3}, {2, 1, 3}, {0, 2, 3}, {4, 5, 6}}) {
+    faces.add_face(f);
+  }
+  const TriMesh mesh = support::plain_tri_mesh(faces);
+  const SurfaceDistance surface(mesh.positions, mesh.faces);
+  QuadMesh quads = on_vertices(mesh, faces);
+  quads.mesh.positions[3].z() = -0.2;
+  ASSERT_FALSE(find_crossing_faces(quads.mesh.positions, triangulate_faces(quads.mesh)).empty());
+  refill_crossing_faces(mesh, surface, quads, 10);
+  std::set<std::set<Index>> corners;
+  for (Index f = 0; f < quads.mesh.face_count(); ++f) {
+    const std::span<const Index> face = quads.mesh.face(f);
+    EXPECT_TRUE(corners.insert({face.begin(), face.end()}).second) << f;
+  }
+}
+
 class RefillOfTori : public testing::TestWithParam<std::tuple<Index, Index>> {};
 
 TEST_P(RefillOfTori, KeepsHandles) {
@@ -259,15 +296,7 @@ TEST_P(RefillOfTori, KeepsHandles) {
   const TriMesh mesh = support::plain_tri_mesh(triangles);
   const SurfaceDistance surface(mesh.positions, mesh.faces);
   for (Index moved = 0; moved < squares.vertex_count(); ++moved) {
-    QuadMesh quads;
-    quads.mesh = squares;
-    for (Index v = 0; v < squares.vertex_count(); ++v) {
-      const Index h = mesh.vertex_out[v];
-      quads.provenance.face.push_back(TriMesh::face_of(h));
-      quads.provenance.barycentric.push_back({0, 0, 0});
-      quads.provenance.barycentric.back()[h % 3] = 1;
-      quads.provenance.lines.push_back({kNone, kNone});
-    }
+    QuadMesh quads = on_vertices(mesh, squares);
     quads.mesh.positions[moved] = -1.0 * squares.positions[moved];
     refill_crossing_faces(mesh, surface, quads, 10);
     const PolyTopology topology = analyse(quads.mesh);
