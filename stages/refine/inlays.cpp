@@ -143,7 +143,7 @@ class Inlays {
     std::vector<std::size_t> changed(sites_.size());
     std::iota(changed.begin(), changed.end(), 0);
     std::size_t fewest = std::numeric_limits<std::size_t>::max();
-    std::vector<Site> best;
+    std::vector<Site> best = sites_;
     int in_vain = 0;
     for (int time = 0; !changed.empty() && in_vain < kThinningsInVain; ++time) {
       for (const std::size_t s : changed) {
