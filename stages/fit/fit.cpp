@@ -12,6 +12,7 @@
 #include "common/geometry/patch_fill/refill_crossing.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/surface_distance/surface_distance.h"
+#include "common/geometry/topology/topology.h"
 #include "stages/fit/block_system.h"
 #include "stages/fit/deviation.h"
 #include "stages/fit/divide_crossing.h"
@@ -71,6 +72,7 @@ class Fit {
     double area = 0;
     for (const double share : vertex_areas()) area += share;
     unseen_ = kUnseen * std::sqrt(area / quads.mesh.face_count());
+    compare_cells(mesh);
   }
 
   /// Whether nothing can be moved without harm.
@@ -80,9 +82,9 @@ class Fit {
   bool improve() {
     guard_.set_start(places_);
     const std::vector<VertexPlaces::State> start = places_.states();
-    const double square = std::max(deviation_.mean(), unseen_ * unseen_);
-    const double cost_before = cost(square);
-    const std::vector<Vec3> moves = solve(square);
+    const std::vector<double> squares = for_cells(std::max(deviation_.mean(), unseen_ * unseen_));
+    const double cost_before = cost(squares);
+    const std::vector<Vec3> moves = solve(squares);
     if (std::ranges::all_of(moves, [](const Vec3& move) { return move.isZero(0); })) return false;
     for (const double step : kSteps) {
       for (Index v = 0; v < system_.size(); ++v) {
@@ -92,7 +94,7 @@ class Fit {
       lines_.straighten_joints(places_);
       if (!retreat(start)) continue;
       measure();
-      if (!(cost(square) < cost_before)) continue;
+      if (!(cost(squares) < cost_before)) continue;
       places_.update_feet();
       return true;
     }
@@ -121,9 +123,54 @@ class Fit {
   [[nodiscard]] const VertexPlaces& places() const { return places_; }
 
  private:
-  /// What is minimised. \param square  squared distance that a turn by a radian is worth
-  [[nodiscard]] double cost(double square) const {
-    return deviation_.cost() + lines_.cost(places_, field_, square);
+  /// What is minimised. \param squares  [V] squared distance that a turn by a radian is worth
+  [[nodiscard]] double cost(const std::vector<double>& squares) const {
+    return deviation_.cost() + lines_.cost(places_, field_, squares);
+  }
+
+  /// [V] of a squared distance, what it is for cells as large as those of the vertex's component.
+  [[nodiscard]] std::vector<double> for_cells(double square) const {
+    std::vector<double> squares = cell_area_;
+    for (double& share : squares) share *= square;
+    return squares;
+  }
+
+  /// Finds out how much smaller the cells of each component are than those of all, and which
+  /// components are still the triangles of the input.
+  void compare_cells(const TriMesh& mesh) {
+    struct Cells {
+      double area = 0;
+      double faces = 0;
+      std::size_t triangles = 0;
+      std::size_t input_triangles = 0;
+      bool is_at_vertices = true;
+      [[nodiscard]] double mean() const { return area / faces; }
+      [[nodiscard]] bool is_input() const { return is_at_vertices && triangles == input_triangles; }
+    };
+    Cells all;
+    const std::vector<Index> component = face_components(mesh);
+    std::vector<Cells> cells(static_cast<std::size_t>(std::ranges::max(component)) + 1);
+    for (const Index c : component) ++cells[c].input_triangles;
+    const auto cells_at = [&](Index v) -> Cells& {
+      return cells[component[quads_.provenance.face[v]]];
+    };
+    const std::vector<double> areas = vertex_areas();
+    for (Index v = 0; v < quads_.mesh.vertex_count(); ++v) {
+      all.area += areas[v];
+      cells_at(v).area += areas[v];
+      cells_at(v).is_at_vertices &= std::ranges::max(quads_.provenance.barycentric[v]) == 1;
+    }
+    for (Index f = 0; f < quads_.mesh.face_count(); ++f) {
+      Cells& own = cells_at(quads_.mesh.face(f)[0]);
+      ++all.faces;
+      ++own.faces;
+      own.triangles += quads_.mesh.face(f).size() - 2;
+    }
+    for (Index v = 0; v < quads_.mesh.vertex_count(); ++v) {
+      const Cells& own = cells_at(v);
+      cell_area_.push_back(own.mean() < all.mean() ? own.mean() / all.mean() : 1.0);
+      is_exact_.push_back(own.is_input() ? 1 : 0);
+    }
   }
 
   void measure() {
@@ -163,18 +210,19 @@ class Fit {
   }
 
   /// [V] the moves that would be best if the surface were flat around each sample.
-  [[nodiscard]] std::vector<Vec3> solve(double square) {
+  [[nodiscard]] std::vector<Vec3> solve(const std::vector<double>& squares) {
     system_.set_zero();
     deviation_.add_to(system_);
-    lines_.add_to(system_, places_, field_, square);
+    lines_.add_to(system_, places_, field_, squares);
     const std::vector<double> area = vertex_areas();
-    const double on_surface = kHoldOnSurface * deviation_.mean() + kLeastHold * unseen_ * unseen_;
+    const std::vector<double> on_surface =
+        for_cells(kHoldOnSurface * deviation_.mean() + kLeastHold * unseen_ * unseen_);
     std::vector<Mat3> freedom;
     for (Index v = 0; v < system_.size(); ++v) {
       const Mat3 along = places_.normal(v) * places_.normal(v).transpose();
       const double hold = std::max(kHold * area[v], std::numeric_limits<double>::min());
-      system_.add(v, v, hold * along + on_surface * (Mat3::Identity() - along));
-      freedom.push_back(places_.freedom(v));
+      system_.add(v, v, hold * along + on_surface[v] * (Mat3::Identity() - along));
+      freedom.push_back(is_exact_[v] != 0 ? Mat3(Mat3::Zero()) : places_.freedom(v));
     }
     system_.restrict_to(freedom);
     std::vector<Vec3> moves = system_.solve();
@@ -220,6 +268,10 @@ class Fit {
   FlowLines lines_;
   FaceGuard guard_;
   BlockSystem system_;
+  /// [V] mean area of the cells of the component, as a share of that of all cells, up to 1: in this
+  /// ratio to the squared distances of all, those of the component are to be expected.
+  std::vector<double> cell_area_;
+  std::vector<std::uint8_t> is_exact_;           ///< [V] 1: of a component that is the input's
   std::vector<std::array<Index, 3>> triangles_;  ///< of the result, at the present places
 };
 

@@ -168,7 +168,8 @@ std::vector<std::vector<Index>> FlowLines::neighbours() const {
 }
 
 std::vector<double> FlowLines::shares_for_lines(const VertexPlaces& places,
-                                                const PrincipalField& field, double square) const {
+                                                const PrincipalField& field,
+                                                const std::vector<double>& squares) const {
   const std::vector<Vec3>& p = places.positions();
   std::vector<double> share(edges_.size(), 1.0);
   std::vector<double> most(p.size(), 0.0);  // importance of an edge at a vertex of a line
@@ -181,7 +182,7 @@ std::vector<double> FlowLines::shares_for_lines(const VertexPlaces& places,
   for (std::size_t e = 0; e < edges_.size(); ++e) {
     if (!is_shared(edges_[e])) continue;
     const auto [on_line, free] = ends(edges_[e]);
-    share[e] = importance(places, field, free, p[free] - p[on_line], square);
+    share[e] = importance(places, field, free, p[free] - p[on_line], squares[free]);
     most[on_line] = std::max(most[on_line], share[e]);
   }
   for (std::size_t e = 0; e < edges_.size(); ++e) {
@@ -192,8 +193,8 @@ std::vector<double> FlowLines::shares_for_lines(const VertexPlaces& places,
 }
 
 template <class Use>
-void FlowLines::for_terms(const VertexPlaces& places, const PrincipalField* field, double square,
-                          const Use& use) const {
+void FlowLines::for_terms(const VertexPlaces& places, const PrincipalField* field,
+                          const std::vector<double>& squares, const Use& use) const {
   const std::vector<Vec3>& p = places.positions();
   std::vector<double> freedom(p.size(), 0.0);  // of edges of a T-joint to leave the field
   std::vector<std::array<Index, 2>> beside(p.size(), {kNone, kNone});
@@ -204,24 +205,24 @@ void FlowLines::for_terms(const VertexPlaces& places, const PrincipalField* fiel
     const Vec3 off = 0.5 * (p[before] + p[after]) - p[vertex];
     term.side = places.normal(vertex).cross(way).normalized();
     term.residual = term.side.dot(off);
-    term.weight = kStraight * square;
+    term.weight = kStraight * squares[vertex];
     if (is_quad_corner && field != nullptr) {
-      freedom[vertex] = 1 - importance(places, *field, vertex, way, square);
+      freedom[vertex] = 1 - importance(places, *field, vertex, way, squares[vertex]);
       beside[vertex] = {before, after};
       term.residual -= freedom[vertex] * kBend * way.norm();
-      term.weight += freedom[vertex] * kBent * square;
+      term.weight += freedom[vertex] * kBent * squares[vertex];
     }
     use(term);
     term.side = term.side.cross(places.normal(vertex));
     term.residual = term.side.dot(off);
-    term.weight = kEven * square;
+    term.weight = kEven * squares[vertex];
     use(term);
   }
   if (field == nullptr) return;
   std::vector<Vec3> arms(p.size());
   tbb::parallel_for(Index{0}, mesh_.vertex_count(),
                     [&](Index v) { arms[v] = places.cross_arm(*field, v); });
-  const std::vector<double> shares = shares_for_lines(places, *field, square);
+  const std::vector<double> shares = shares_for_lines(places, *field, squares);
   for (std::size_t e = 0; e < edges_.size(); ++e) {
     const std::array<Index, 2>& edge = edges_[e];
     const double share = shares[e];
@@ -240,25 +241,25 @@ void FlowLines::for_terms(const VertexPlaces& places, const PrincipalField* fiel
     }
     for (const Index v : edge) {
       if (places.is_free(v)) {
-        use_shared(along_cross(places, arms[v], edge, v, bound * square / 2));
+        use_shared(along_cross(places, arms[v], edge, v, bound * squares[v] / 2));
       } else if (places.is_on_line(v)) {
-        use_shared(across_line(places, places.line_tangent(v), edge, square / 2));
+        use_shared(across_line(places, places.line_tangent(v), edge, squares[v] / 2));
       }
     }
   }
 }
 
 double FlowLines::cost(const VertexPlaces& places, const PrincipalField* field,
-                       double square) const {
+                       const std::vector<double>& squares) const {
   double sum = 0;
-  for_terms(places, field, square,
+  for_terms(places, field, squares,
             [&](const DirectionTerm& term) { sum += term.weight * term.residual * term.residual; });
   return sum;
 }
 
 void FlowLines::add_to(BlockSystem& system, const VertexPlaces& places, const PrincipalField* field,
-                       double square) const {
-  for_terms(places, field, square, [&](const DirectionTerm& term) {
+                       const std::vector<double>& squares) const {
+  for_terms(places, field, squares, [&](const DirectionTerm& term) {
     const Mat3 across = term.weight * term.side * term.side.transpose();
     for (int i = 0; i < 3; ++i) {
       if (term.factors[i] == 0) continue;

@@ -24,12 +24,12 @@ class FlowLines {
 
   /// The sum of weight times squared residual over all wishes at the present places.
   /// \param field        nullptr: lines only want to be straight and even
-  /// \param square       squared distance that an edge turned by one radian is worth
+  /// \param squares      [V] squared distance that an edge turned by one radian is worth there
   [[nodiscard]] double cost(const VertexPlaces& places, const PrincipalField* field,
-                            double square) const;
+                            const std::vector<double>& squares) const;
   /// Adds the least-squares problem of fulfilling these wishes by moves of the vertices.
   void add_to(BlockSystem& system, const VertexPlaces& places, const PrincipalField* field,
-              double square) const;
+              const std::vector<double>& squares) const;
 
   /// Moves T-joints that make their face concave onto the line between their neighbours, within the
   /// face's plane.
@@ -56,12 +56,12 @@ class FlowLines {
   /// around it.
   [[nodiscard]] std::vector<double> shares_for_lines(const VertexPlaces& places,
                                                      const PrincipalField& field,
-                                                     double square) const;
+                                                     const std::vector<double>& squares) const;
   void follow_lines(Index vertex, const std::vector<Index>& around);
   /// Calls use(term) for every wish.
   template <class Use>
-  void for_terms(const VertexPlaces& places, const PrincipalField* field, double square,
-                 const Use& use) const;
+  void for_terms(const VertexPlaces& places, const PrincipalField* field,
+                 const std::vector<double>& squares, const Use& use) const;
 
   const PolyMesh& mesh_;
   std::vector<Index> face_of_;  ///< [C]

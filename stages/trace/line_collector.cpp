@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <deque>
 
+#include "stages/trace/specks.h"
+
 namespace strake {
 namespace {
 
@@ -27,6 +29,7 @@ LineCollector::LineCollector(const TraceDomain& domain, const std::vector<std::u
                              const TracerSettings& settings, Observer& observer)
     : domain_(domain),
       settings_(settings),
+      is_of_speck_(faces_of_specks(domain.mesh, domain.spacing)),
       finished_(domain, barriers),
       tracer_(domain, barriers, settings, finished_),
       observer_(observer) {}
@@ -48,7 +51,7 @@ void LineCollector::grow(const std::vector<Seed>& seeds) {
   while (!queue.empty()) {
     const Seed seed = queue.front();
     queue.pop_front();
-    if (!seed.fills_gap && is_given_up(seed.face)) continue;
+    if (is_left_out(seed)) continue;
     const LineDraft draft = tracer_.trace(seed);
     query_count_ += draft.query_count;
     // Also while gaps are filled, so that a run can be interrupted at any time.
@@ -68,6 +71,10 @@ void LineCollector::grow(const std::vector<Seed>& seeds) {
 bool LineCollector::is_given_up(Index face) const {
   const auto failed = failed_queries_.find(face);
   return failed != failed_queries_.end() && failed->second > kMostFailedQueries + found_queries_;
+}
+
+bool LineCollector::is_left_out(const Seed& seed) const {
+  return is_of_speck_[seed.face] != 0 || (!seed.fills_gap && is_given_up(seed.face));
 }
 
 void LineCollector::saturate() {

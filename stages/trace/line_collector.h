@@ -35,9 +35,12 @@ class LineCollector {
  private:
   /// Whether seeds in a face are left to `saturate`, which tries each place once: too many failed.
   [[nodiscard]] bool is_given_up(Index face) const;
+  /// Whether no line may start with a seed.
+  [[nodiscard]] bool is_left_out(const Seed& seed) const;
 
   const TraceDomain& domain_;
   TracerSettings settings_;
+  std::vector<std::uint8_t> is_of_speck_;  ///< [F]
   FinishedLines finished_;
   LineTracer tracer_;
   Observer& observer_;

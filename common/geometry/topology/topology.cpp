@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <memory>
 #include <utility>
@@ -149,6 +150,19 @@ std::vector<Index> face_components(const TriMesh& mesh) {
     ++count;
   }
   return component;
+}
+
+std::vector<double> component_extents(const TriMesh& mesh, const std::vector<Index>& component) {
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const auto c = static_cast<std::size_t>(component[f]);
+    if (c >= boxes.size()) boxes.resize(c + 1);
+    for (const Index v : mesh.faces[f]) boxes[c].extend(mesh.positions[v]);
+  }
+  std::vector<double> extents;
+  extents.reserve(boxes.size());
+  for (const Eigen::AlignedBox3d& box : boxes) extents.push_back(box.diagonal().norm());
+  return extents;
 }
 
 Census census(const TriMesh& mesh) {

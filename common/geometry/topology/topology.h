@@ -42,6 +42,10 @@ Census census(const TriMesh& mesh);
 /// \return [F] in [0, components)
 std::vector<Index> face_components(const TriMesh& mesh);
 
+/// The diagonal of the bounding box of each component, model units.
+/// \param component  [F] as `face_components` gives it
+std::vector<double> component_extents(const TriMesh& mesh, const std::vector<Index>& component);
+
 /// 32 hexadecimal digits that identify the mesh: XXH3-128 of origin, positions, faces, feature and
 /// corner flags, and the id of the mesh it is a coarser one of.
 std::string content_id(const TriMesh& mesh);
