@@ -89,6 +89,17 @@ void keep_triangles(const std::vector<Index>& component, const std::vector<char>
   }
 }
 
+/// Leaves the triangles of some components, as far as they have been simplified, to no later step:
+/// joining them to quads would end with two that lie back to back.
+void hold_triangles(const std::vector<Index>& component, const std::vector<char>& keep,
+                    PolygonGraph& graph) {
+  const DartGraph& g = graph.graph();
+  for (Index d = 0; d < g.dart_count(); d += 2) {
+    if (!g.is_alive(d) || graph.is_barrier(d)) continue;
+    if (keep[component[graph.node(g.from(d)).face]] != 0) graph.hold(d);
+  }
+}
+
 QuadMesh assemble(const TriMesh& mesh, const PolygonGraph& graph) {
   QuadMesh result;
   result.mesh_id = mesh.id;
@@ -208,6 +219,7 @@ Cells form_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions& o
   cells.simplified = simplify(
       cells.graph, [&](const SurfaceNode& node) { return local_size(mesh, lines, node); },
       kShortestEdge);
+  if (!options.pure_quads) hold_triangles(component, starved, cells.graph);
   cells.split_features = split_crossing_features(cells.graph);
   observer.report("dividing cells", 0.8);
   cells.divided = partition(cells.graph, most_sides(options));

@@ -321,6 +321,11 @@ void PolygonGraph::dissolve(Index dart) {
   graph_.dissolve_node(dart);
 }
 
+void PolygonGraph::hold(Index dart) {
+  kind_[DartGraph::edge_of(dart)] = EdgeKind::feature;
+  for (const Index d : {dart, DartGraph::opposite(dart)}) rank_[graph_.from(d)] = NodeRank::corner;
+}
+
 void PolygonGraph::contract(Index dart) {
   if (is_barrier(dart) && rank_[graph_.from(dart)] == NodeRank::barrier) {
     for (Index d = graph_.rotate_ccw(dart); d != dart; d = graph_.rotate_ccw(d)) {
