@@ -23,7 +23,8 @@ const Vec3& position_of(const SurfaceSample& sample) { return sample.position; }
 const Vec3& position_of(const Vec3& place) { return place; }
 
 struct OneWay {
-  double mean = 0, rms = 0, max = 0;
+  double mean = 0, rms = 0;
+  Farthest farthest;
   double normal_mean = 0, normal_rms = 0, normal_max = 0, facing_away = 0;  // degrees; a share
 };
 
@@ -96,7 +97,14 @@ OneWay measure(const SurfaceWithVertices& from, const MeasuredSurface& to, doubl
   OneWay result;
   result.mean = mean(distance);
   result.rms = rms(distance);
-  result.max = std::max(largest(distance), largest(at_vertex));
+  const auto of_samples = std::ranges::max_element(distance);
+  const auto of_vertices = std::ranges::max_element(at_vertex);
+  if (of_vertices != at_vertex.end() && *of_vertices >= *of_samples) {
+    result.farthest = {*of_vertices, from.vertices[of_vertices - at_vertex.begin()]};
+  } else {
+    const std::int64_t i = of_samples - distance.begin();
+    result.farthest = {*of_samples, from.surface.sample(i, samples).position};
+  }
   result.normal_mean = mean(angle);
   result.normal_rms = rms(angle);
   result.normal_max = largest(angle);
@@ -109,7 +117,7 @@ OneWay both(const OneWay& a, const OneWay& b) {
   OneWay result;
   result.mean = (a.mean + b.mean) / 2;
   result.rms = std::sqrt((a.rms * a.rms + b.rms * b.rms) / 2);
-  result.max = std::max(a.max, b.max);
+  result.farthest = a.farthest.distance >= b.farthest.distance ? a.farthest : b.farthest;
   result.normal_mean = (a.normal_mean + b.normal_mean) / 2;
   result.normal_rms = std::sqrt((a.normal_rms * a.normal_rms + b.normal_rms * b.normal_rms) / 2);
   result.normal_max = std::max(a.normal_max, b.normal_max);
@@ -121,10 +129,10 @@ void report_way(const std::string& way, const OneWay& measured, double diagonal,
   const std::string distance = "distance." + way;
   report.set(distance + "rms", measured.rms);
   report.set(distance + "mean", measured.mean);
-  report.set(distance + "max", measured.max);
+  report.set(distance + "max", measured.farthest.distance);
   report.set(distance + "rms_share", share(measured.rms, diagonal));
   report.set(distance + "mean_share", share(measured.mean, diagonal));
-  report.set(distance + "max_share", share(measured.max, diagonal));
+  report.set(distance + "max_share", share(measured.farthest.distance, diagonal));
   const std::string normals = "normals." + way;
   report.set(normals + "mean_deg", measured.normal_mean);
   report.set(normals + "rms_deg", measured.normal_rms);
@@ -134,16 +142,19 @@ void report_way(const std::string& way, const OneWay& measured, double diagonal,
 
 }  // namespace
 
-void report_deviation(const SurfaceWithVertices& reference, const SurfaceWithVertices& candidate,
-                      double diagonal, std::int64_t samples, Observer& observer, Report& report) {
+Farthest report_deviation(const SurfaceWithVertices& reference,
+                          const SurfaceWithVertices& candidate, double diagonal,
+                          std::int64_t samples, Observer& observer, Report& report) {
   const OneWay to_reference = measure(candidate, reference.surface, diagonal, samples,
                                       "distances to the reference", observer);
   const OneWay from_reference = measure(reference, candidate.surface, diagonal, samples,
                                         "distances from the reference", observer);
   report.set("distance.samples", samples);
-  report_way("", both(to_reference, from_reference), diagonal, report);
+  const OneWay both_ways = both(to_reference, from_reference);
+  report_way("", both_ways, diagonal, report);
   report_way("to_reference.", to_reference, diagonal, report);
   report_way("from_reference.", from_reference, diagonal, report);
+  return both_ways.farthest;
 }
 
 }  // namespace strake::evaluation

@@ -15,6 +15,12 @@ struct SurfaceWithVertices {
   const std::vector<Vec3>& vertices;  ///< each one used by a face
 };
 
+/// The largest distance, model units, and the place it was measured from, on either surface.
+struct Farthest {
+  double distance = 0;
+  Vec3 place = Vec3::Zero();
+};
+
 /// Reports "distance.*" and "normals.*": how far apart two surfaces are, both ways.
 ///
 /// From each surface `samples` area-weighted places are taken to their nearest point on the other.
@@ -22,7 +28,8 @@ struct SurfaceWithVertices {
 /// angle between the triangles' normals at a sample and at its nearest point; on an edge or vertex
 /// the nearest of the normals there. The combined RMS is the root of the mean of both squares, the
 /// combined mean the mean of both.
-void report_deviation(const SurfaceWithVertices& reference, const SurfaceWithVertices& candidate,
-                      double diagonal, std::int64_t samples, Observer& observer, Report& report);
+Farthest report_deviation(const SurfaceWithVertices& reference,
+                          const SurfaceWithVertices& candidate, double diagonal,
+                          std::int64_t samples, Observer& observer, Report& report);
 
 }  // namespace strake::evaluation

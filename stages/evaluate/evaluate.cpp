@@ -1,10 +1,13 @@
 #include "stages/evaluate/evaluate.h"
 
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "common/core/error.h"
+#include "common/core/tolerance_error.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_edges.h"
 #include "common/geometry/poly_topology/poly_topology.h"
@@ -50,6 +53,18 @@ void require_finite(const PolyMesh& mesh) {
                               " has coordinates that are no finite numbers; repair the mesh first");
     }
   }
+}
+
+void require_within(const Length& tolerance, const evaluation::Farthest& farthest,
+                    const TriMesh& reference) {
+  const double wanted = tolerance.resolve(reference.diagonal);
+  if (farthest.distance <= wanted) return;
+  const Vec3 place = farthest.place + reference.origin;
+  throw ToleranceError(
+      fmt::format("measured afterwards, the result and the surface are {:.6g} apart at ({:.6g}, "
+                  "{:.6g}, {:.6g}), more than the {:.6g} allowed; use a larger tolerance",
+                  farthest.distance, place.x(), place.y(), place.z(), wanted),
+      {farthest.place});
 }
 
 void report_one_topology(const std::string& prefix, const PolyTopology& topology, Report& report) {
@@ -111,9 +126,10 @@ EvaluateResult evaluate_mesh(const TriMesh& reference, const PrincipalField* fie
   const evaluation::MeasuredSurface candidate_surface(local.positions, triangles.corners,
                                                       "the candidate");
   const std::vector<Vec3> candidate_vertices = used_vertices(local);
-  evaluation::report_deviation({reference_surface, reference.positions},
-                               {candidate_surface, candidate_vertices}, reference.diagonal,
-                               options.samples, observer, report);
+  const evaluation::Farthest farthest = evaluation::report_deviation(
+      {reference_surface, reference.positions}, {candidate_surface, candidate_vertices},
+      reference.diagonal, options.samples, observer, report);
+  if (options.tolerance) require_within(*options.tolerance, farthest, reference);
 
   observer.report("features and alignment", 0);
   evaluation::report_kept_edges(reference, local, edges, report);

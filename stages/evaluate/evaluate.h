@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
 #include "common/core/fields.h"
 #include "common/core/observer.h"
 #include "common/core/options.h"
@@ -10,7 +13,8 @@
 namespace strake {
 
 struct EvaluateOptions {
-  std::int64_t samples = 200000;  ///< of each surface, for distances
+  std::int64_t samples = 200000;    ///< of each surface, for distances
+  std::optional<Length> tolerance;  ///< two-sided distance that makes it an error
 
   OptionList declare();
 };
@@ -21,6 +25,8 @@ struct EvaluateResult {
 
 /// Measures a polygon mesh against the surface it approximates.
 /// \param field  curvature directions for the alignment figures; nullptr: these are left out
+/// \throw PreconditionError where the candidate cannot be measured, ToleranceError naming the
+///        farthest place where that is beyond the tolerance
 EvaluateResult evaluate_mesh(const TriMesh& reference, const PrincipalField* field,
                              const PolyMesh& candidate, const EvaluateOptions& options,
                              Observer& observer);

@@ -109,6 +109,12 @@ std::string Chain::run(Session& session) const {
 }
 
 const Report& Chain::measure(Session& session, const std::string& port) const {
+  const std::string tolerance = trace.option("tolerance").value();
+  const bool is_proven = mesh.option("pure-quads").value() != "true";
+  if (const Option& most = evaluate.option("evaluate-tolerance");
+      is_proven && !tolerance.empty() && most.value().empty()) {
+    most.parse_into(tolerance);
+  }
   const QuadMesh& quads = session.get<QuadMesh>(port);
   session.provide_as("candidate", Polygons{quads.mesh, quads.mesh_id, {}}, port);
   const Report& report = session.run(evaluate);

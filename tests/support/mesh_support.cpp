@@ -65,6 +65,17 @@ PolyMesh transformed(const PolyMesh& mesh, const Mat3& linear, const Vec3& shift
   return result;
 }
 
+PolyMesh together(const PolyMesh& a, const PolyMesh& b) {
+  PolyMesh result = a;
+  result.positions.insert(result.positions.end(), b.positions.begin(), b.positions.end());
+  for (Index f = 0; f < b.face_count(); ++f) {
+    std::vector<Index> face(b.face(f).begin(), b.face(f).end());
+    for (Index& v : face) v += a.vertex_count();
+    result.add_face(face);
+  }
+  return result;
+}
+
 Mat3 oblique_rotation() {
   return Eigen::AngleAxisd(2.1, Vec3(0.36, -0.48, 0.8)).toRotationMatrix();
 }

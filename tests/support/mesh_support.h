@@ -17,6 +17,9 @@ TriMesh plain_tri_mesh(const PolyMesh& mesh);
 /// that they stay oriented outwards.
 PolyMesh transformed(const PolyMesh& mesh, const Mat3& linear, const Vec3& shift = Vec3::Zero());
 
+/// Both meshes side by side, with vertices of their own.
+PolyMesh together(const PolyMesh& a, const PolyMesh& b);
+
 /// A rotation that has nothing to do with the axes.
 Mat3 oblique_rotation();
 

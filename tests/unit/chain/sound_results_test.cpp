@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "common/core/tolerance_error.h"
 #include "common/geometry/face_crossings/face_crossings.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/samples/samples.h"
@@ -50,6 +51,18 @@ TEST(Remesh, WithinAToleranceFacesDoNotCross) {
   ASSERT_EQ(crossings(mesh), 0u);
   const RemeshResult result = remesh({mesh, {}, {}, {}}, options);
   EXPECT_EQ(crossings(result.quads.mesh), 0u);
+}
+
+// What dividing cells proves is measured again in another way, from points.
+TEST(Remesh, ATolerancesProofIsChecked) {
+  SampleOptions sample;
+  sample.faces = 2000;
+  RemeshInput input{make_sample(SampleKind::torus, sample), {}, {}, {}};
+  RemeshOptions options;
+  options.trace.tolerance = percent(0.5);
+  EXPECT_NO_THROW(remesh(input, options));
+  options.evaluate.tolerance = percent(0.01);
+  EXPECT_THROW(remesh(input, options), ToleranceError);
 }
 
 // Likewise with so few vertices that a claw has four or five.

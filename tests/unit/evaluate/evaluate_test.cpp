@@ -8,6 +8,8 @@
 #include <numbers>
 
 #include "common/core/error.h"
+#include "common/core/tolerance_error.h"
+#include "tests/support/mesh_support.h"
 #include "tests/unit/evaluate/shapes.h"
 
 namespace strake {
@@ -68,6 +70,31 @@ struct Tube {
     });
   }
 };
+
+TEST(Evaluate, RefusesWhatIsFartherThanATolerance) {
+  const PolyMesh torus = shapes::torus(40, 20, 1, 0.3);
+  const TriMesh reference = shapes::reference(torus);
+  PolyMesh dented = torus;
+  dented.positions[7] *= 0.9;
+  EvaluateOptions options;
+  options.samples = 20000;
+  SilentObserver observer;
+  const double largest =
+      number(evaluate_mesh(reference, nullptr, dented, options, observer).report, "distance.max");
+  options.tolerance = Length{1.001 * largest, false};
+  EXPECT_NO_THROW(evaluate_mesh(reference, nullptr, dented, options, observer));
+  options.tolerance = Length{0.999 * largest, false};
+  try {
+    evaluate_mesh(reference, nullptr, dented, options, observer);
+    ADD_FAILURE() << "no error";
+  } catch (const ToleranceError& error) {
+    ASSERT_EQ(error.places().size(), 1u);
+    const Vec3 place = error.places()[0] + reference.origin;
+    // The vertex, or what of the torus was there before.
+    EXPECT_LT(std::min((place - dented.positions[7]).norm(), (place - torus.positions[7]).norm()),
+              1e-9);
+  }
+}
 
 TEST(Evaluate, ASurfaceIsAtNoDistanceFromItself) {
   const PolyMesh torus = shapes::torus(40, 20, 1, 0.3);
@@ -310,12 +337,12 @@ TEST(Evaluate, FacesThatCrossAndSmallAnglesAreCounted) {
   // The four sides of a tower pass through the top of the cube.
   const PolyMesh tower = shapes::moved(
       cube, [](const Vec3& p) { return Vec3(p.x() / 9, p.y() / 9, 2 + 1.5 * p.z()); });
-  const Report both = evaluated(shapes::reference(cube), shapes::joined(cube, tower));
+  const Report both = evaluated(shapes::reference(cube), support::together(cube, tower));
   EXPECT_EQ(number(both, "shape.self_intersecting_pairs"), 4);
   const PolyMesh sheared = shapes::moved(
       shapes::square(1, 0), [](const Vec3& p) { return Vec3(p.x() + 6 * p.y(), p.y(), 0); });
   const Report acute =
-      evaluated(shapes::reference(cube), shapes::joined(shapes::square(1, 2), sheared));
+      evaluated(shapes::reference(cube), support::together(shapes::square(1, 2), sheared));
   EXPECT_EQ(number(acute, "angles.face_share_above_10_deg"), 0.5);
 }
 

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <random>
 
+#include "tests/support/mesh_support.h"
 #include "tests/unit/evaluate/shapes.h"
 
 namespace strake {
@@ -102,7 +103,7 @@ TEST(FaceShape, ConcavityIsFoundFromEveryStartAndOnBothSides) {
 }
 
 TEST(FaceShape, EveryTriangleKnowsItsFace) {
-  const PolyMesh mesh = shapes::joined(polygon(kL), shapes::square(2, 0));
+  const PolyMesh mesh = support::together(polygon(kL), shapes::square(2, 0));
   const FaceTriangles all = triangulate_faces(mesh);
   ASSERT_EQ(all.face.size(), all.corners.size());
   std::vector<std::size_t> count(static_cast<std::size_t>(mesh.face_count()));
@@ -157,7 +158,7 @@ TEST(FaceShape, FacesBegunAtFansAreMeasuredAsFans) {
 
 TEST(FaceShape, FacesOfManyCornersKeepTheirsWhereThereIsNoFan) {
   const std::vector<Vec2> dart = {kDart[1], kDart[2], kDart[3], kDart[0]};
-  PolyMesh mesh = shapes::joined(polygon(star(5)), polygon(dart));
+  PolyMesh mesh = support::together(polygon(star(5)), polygon(dart));
   const PolyMesh before = mesh;
   begin_faces_at_fans(mesh);
   EXPECT_TRUE(std::ranges::equal(mesh.face(0), before.face(0)));

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "common/core/error.h"
+#include "tests/support/mesh_support.h"
 #include "tests/unit/evaluate/shapes.h"
 
 namespace strake {
@@ -53,8 +54,8 @@ TEST(PolyTopology, TorusHasOneHandle) {
 }
 
 TEST(PolyTopology, ComponentsAndTheirGenusAddUp) {
-  const PolyMesh tori = shapes::joined(shapes::torus(6, 4, 1, 0.2), shapes::torus(5, 7, 3, 0.2));
-  const PolyTopology all = analyse(shapes::joined(tori, shapes::cube(1, 9)));
+  const PolyMesh tori = support::together(shapes::torus(6, 4, 1, 0.2), shapes::torus(5, 7, 3, 0.2));
+  const PolyTopology all = analyse(support::together(tori, shapes::cube(1, 9)));
   EXPECT_EQ(all.components, 3);
   EXPECT_EQ(all.genus, 2);
   EXPECT_EQ(all.euler, 2);
@@ -173,7 +174,7 @@ TEST(PolyTopology, CountsSidesAndUnusedVertices) {
 }
 
 TEST(PolyTopology, DoesNotDependOnNumbering) {
-  PolyMesh mesh = shapes::joined(shapes::torus(7, 5, 1, 0.3), shapes::square(4, 2));
+  PolyMesh mesh = support::together(shapes::torus(7, 5, 1, 0.3), shapes::square(4, 2));
   turn_face(mesh, 3);
   std::mt19937 random(5);
   std::vector<Index> rename(mesh.positions.size());

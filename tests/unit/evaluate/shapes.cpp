@@ -90,17 +90,6 @@ PolyMesh moebius_band(Index n) {
   return mesh;
 }
 
-PolyMesh joined(const PolyMesh& a, const PolyMesh& b) {
-  PolyMesh result = a;
-  result.positions.insert(result.positions.end(), b.positions.begin(), b.positions.end());
-  for (Index f = 0; f < b.face_count(); ++f) {
-    std::vector<Index> face(b.face(f).begin(), b.face(f).end());
-    for (Index& v : face) v += a.vertex_count();
-    result.add_face(face);
-  }
-  return result;
-}
-
 PolyMesh moved(PolyMesh mesh, const std::function<Vec3(const Vec3&)>& move) {
   for (Vec3& p : mesh.positions) p = move(p);
   return mesh;

@@ -22,8 +22,6 @@ PolyMesh cube(Index n, double half);
 /// A band of n quads with half a twist.
 PolyMesh moebius_band(Index n);
 
-/// Both meshes side by side, indices shifted.
-PolyMesh joined(const PolyMesh& a, const PolyMesh& b);
 /// The mesh with every vertex moved.
 PolyMesh moved(PolyMesh mesh, const std::function<Vec3(const Vec3&)>& move);
 /// A mesh with every vertex displaced by up to `amount` along each axis, always in the same way.

@@ -161,6 +161,53 @@ QuadMesh copies_on(const TriMesh& mesh, int copies) {
 }
 
 // Every face meets those in its place, 17 with 18 copies, and each of these pairs counts for two.
+/// A sphere as a coarse one, beside another of a share of its size likewise, or as it is.
+struct TwoSpheres {
+  TriMesh mesh;
+  QuadMesh quads;
+
+  TwoSpheres(double size, int level)
+      : mesh(support::plain_tri_mesh(beside(icosphere(4), icosphere(3), size))),
+        quads(placed_on(mesh, beside(icosphere(2), icosphere(level), size))) {}
+
+  static PolyMesh beside(const PolyMesh& sphere, const PolyMesh& other, double size) {
+    return support::together(sphere,
+                             support::transformed(other, size * Mat3::Identity(), {2, 0, 0}));
+  }
+};
+
+TEST(Fit, LeavesComponentsThatAreTheInputAsTheyAre) {
+  const TwoSpheres all(0.3, 3);
+  QuadMesh exact = all.quads;
+  const Index first = icosphere(2).vertex_count();
+  for (Index v = first; v < exact.mesh.vertex_count(); ++v) {  // free of rounding
+    std::array<double, 3>& b = exact.provenance.barycentric[v];
+    for (double& x : b) x = std::round(x);
+  }
+  const QuadMesh result = fitted(all.mesh, exact);
+  EXPECT_NE(result.mesh.positions[0], exact.mesh.positions[0]);
+  for (Index v = first; v < exact.mesh.vertex_count(); ++v) {
+    EXPECT_EQ(result.mesh.positions[v], exact.mesh.positions[v]);
+  }
+}
+
+/// What directions are worth beside what is a thousand times as large would fold it up.
+TEST(Fit, FitsSmallComponentsAsLargeOnes) {
+  for (const double size : {0.5, 0.05, 0.001}) {
+    const TwoSpheres all(size, 1);
+    const QuadMesh result = fitted(all.mesh, all.quads);
+    const Index first = icosphere(2).vertex_count();
+    for (Index v = first; v < result.mesh.vertex_count(); ++v) {
+      EXPECT_NEAR((result.mesh.positions[v] - Vec3(2, 0, 0)).norm(), size, 0.2 * size);
+    }
+    double area = 0;
+    for (Index f = icosphere(2).face_count(); f < result.mesh.face_count(); ++f) {
+      area += newell_normal(result.mesh.positions, result.mesh.face(f)).norm() / 2;
+    }
+    EXPECT_NEAR(area / (4 * M_PI * size * size), 1, 0.1) << size;
+  }
+}
+
 TEST(Fit, LeavesManySheetsInOnePlaceAlone) {
   const TriMesh mesh = support::plain_tri_mesh(icosphere(5));
   const QuadMesh few = copies_on(mesh, 12);

@@ -43,7 +43,7 @@ PolyMesh fine_cube(int n) {
       p = side % 3 == 0 ? q
                         : (side % 3 == 1 ? Vec3(q.z(), q.x(), q.y()) : Vec3(q.y(), q.z(), q.x()));
     }
-    all = shapes::together(all, shapes::turned(sheet, [&](Index) { return side < 3; }));
+    all = support::together(all, shapes::turned(sheet, [&](Index) { return side < 3; }));
   }
   return shapes::merged(all);
 }

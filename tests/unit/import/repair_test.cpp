@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "common/core/error.h"
+#include "tests/support/mesh_support.h"
 #include "tests/unit/import/shapes.h"
 
 namespace strake {
@@ -51,7 +52,7 @@ TEST(Repair, UnweldedSoupBecomesTheClosedSurface) {
 
 TEST(Repair, ClosedPiecesThatTouchAreNotGlued) {
   // Two cubes that share the positions of a whole face, each with vertices of its own.
-  const PolyMesh pair = shapes::together(shapes::cube(), shapes::cube(Vec3(1, 0, 0)));
+  const PolyMesh pair = support::together(shapes::cube(), shapes::cube(Vec3(1, 0, 0)));
   const ImportResult result = imported(pair);
   EXPECT_FALSE(is_repaired(result));
   EXPECT_EQ(census(result.mesh).components, 2);
@@ -62,7 +63,7 @@ TEST(Repair, OpenSheetsThatTouchInAPointAreNotGlued) {
   const PolyMesh sheet = shapes::grid(2, 2, [](double, double) { return 0.0; });
   PolyMesh other = sheet;
   for (Vec3& p : other.positions) p += Vec3(1, 1, 0);
-  const ImportResult result = imported(shapes::together(sheet, other));
+  const ImportResult result = imported(support::together(sheet, other));
   EXPECT_FALSE(is_repaired(result));
   EXPECT_EQ(census(result.mesh).components, 2);
 }
@@ -107,7 +108,7 @@ TEST(Repair, DoubleSidedSheetBecomesOneSheet) {
 
 TEST(Repair, WallBetweenSolidsThatShareAFaceGoes) {
   const PolyMesh pair =
-      shapes::merged(shapes::together(shapes::cube(), shapes::cube(Vec3(1, 0, 0))));
+      shapes::merged(support::together(shapes::cube(), shapes::cube(Vec3(1, 0, 0))));
   const ImportResult result = imported(pair);
   EXPECT_EQ(count(result.report, "repairs.duplicate_faces"), 2);
   EXPECT_EQ(count(result.report, "repairs.inner_faces"), 2);
@@ -119,7 +120,7 @@ TEST(Repair, WallBetweenSolidsThatShareAFaceGoes) {
 
 TEST(Repair, SolidsThatShareAnEdgeComeApartClosed) {
   const PolyMesh pair =
-      shapes::merged(shapes::together(shapes::cube(), shapes::cube(Vec3(1, 1, 0))));
+      shapes::merged(support::together(shapes::cube(), shapes::cube(Vec3(1, 1, 0))));
   ASSERT_EQ(pair.vertex_count(), 14);
   const ImportResult result = imported(pair);
   EXPECT_EQ(count(result.report, "repairs.non_manifold_edges"), 1);
@@ -132,7 +133,7 @@ TEST(Repair, SolidsThatShareAnEdgeComeApartClosed) {
 
 TEST(Repair, SolidsThatShareAVertexComeApart) {
   const PolyMesh pair =
-      shapes::merged(shapes::together(shapes::cube(), shapes::cube(Vec3(1, 1, 1))));
+      shapes::merged(support::together(shapes::cube(), shapes::cube(Vec3(1, 1, 1))));
   ASSERT_EQ(pair.vertex_count(), 15);
   const ImportResult result = imported(pair);
   EXPECT_EQ(census(result.mesh).components, 2);
@@ -313,9 +314,9 @@ TEST(Repair, PiecesWithoutAreaGo) {
     return shapes::polygons({a, b, c}, {{0, 1, 2}});
   };
   const Vec3 at(0.3, 0.3, 2);
-  PolyMesh mesh = shapes::together(shapes::cube(), piece(at, at, Vec3(1, 1, 2)));
-  mesh = shapes::together(mesh, piece(at, at, at));
-  mesh = shapes::together(
+  PolyMesh mesh = support::together(shapes::cube(), piece(at, at, Vec3(1, 1, 2)));
+  mesh = support::together(mesh, piece(at, at, at));
+  mesh = support::together(
       mesh, shapes::polygons({at, at + Vec3(1, 0, 0), at + Vec3(3, 0, 0), at + Vec3(2, 0, 0)},
                              {{0, 1, 2}, {0, 2, 3}}));
   const ImportResult result = imported(mesh);
@@ -330,7 +331,7 @@ TEST(Repair, PiecesWithoutAreaGo) {
 /// `count` cubes in a row, each sharing a face with the next.
 PolyMesh row_of_cubes(int count) {
   PolyMesh row = shapes::cube();
-  for (int i = 1; i < count; ++i) row = shapes::together(row, shapes::cube(Vec3(i, 0, 0)));
+  for (int i = 1; i < count; ++i) row = support::together(row, shapes::cube(Vec3(i, 0, 0)));
   return shapes::merged(row);
 }
 

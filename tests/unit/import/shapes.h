@@ -32,19 +32,6 @@ inline PolyMesh cube(const Vec3& shift = Vec3::Zero()) {
       {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}});
 }
 
-/// Both meshes side by side, with vertices of their own.
-inline PolyMesh together(const PolyMesh& a, const PolyMesh& b) {
-  PolyMesh result = a;
-  const Index shift = a.vertex_count();
-  result.positions.insert(result.positions.end(), b.positions.begin(), b.positions.end());
-  for (Index f = 0; f < b.face_count(); ++f) {
-    std::vector<Index> face(b.face(f).begin(), b.face(f).end());
-    for (Index& v : face) v += shift;
-    result.add_face(face);
-  }
-  return result;
-}
-
 /// The mesh with vertices of equal position made one, faces as they are.
 inline PolyMesh merged(const PolyMesh& mesh) {
   PolyMesh result;

@@ -97,7 +97,7 @@ TEST(Census, OfKnownSurfaces) {
   EXPECT_EQ(holed.boundary_loops, 3);
   EXPECT_EQ(holed.genus, 1);
   EXPECT_EQ(holed.euler_characteristic, -3);
-  Census two = counts(shapes::together(shapes::cube(), shapes::torus(5, 4)));
+  Census two = counts(support::together(shapes::cube(), shapes::torus(5, 4)));
   EXPECT_EQ(two.components, 2);
   EXPECT_EQ(two.genus, 1);
 }
@@ -154,6 +154,18 @@ TEST(Validate, FindsEveryKindOfDamage) {
   breaks("a coordinate that is no number", [](TriMesh& m) { m.positions[0].x() = std::nan(""); });
   breaks("a wedge of another vertex", [](TriMesh& m) { m.face_wedges[0][0] = m.wedge_of(1); });
   breaks("flags of another size", [](TriMesh& m) { m.is_corner.pop_back(); });
+}
+
+TEST(Topology, MeasuresComponents) {
+  const TriMesh mesh =
+      shapes::imported(
+          support::together(shapes::cube(),
+                            support::transformed(shapes::cube(), 3 * Mat3::Identity(), {5, 0, 0})))
+          .mesh;
+  const std::vector<double> extents = component_extents(mesh, face_components(mesh));
+  ASSERT_EQ(extents.size(), 2u);
+  EXPECT_NEAR(std::min(extents[0], extents[1]), std::sqrt(3), 1e-12);
+  EXPECT_NEAR(std::max(extents[0], extents[1]), 3 * std::sqrt(3), 1e-12);
 }
 
 }  // namespace

@@ -1,15 +1,19 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <set>
 
 #include "common/core/error.h"
 #include "common/geometry/poly_topology/poly_topology.h"
 #include "common/geometry/samples/samples.h"
 #include "common/geometry/topology/topology.h"
+#include "tests/support/attributed.h"
 #include "tests/support/chain.h"
 #include "tests/support/import_support.h"
+#include "tests/support/mesh_support.h"
 #include "tests/unit/mesh/line_sets.h"
 
 namespace strake {
@@ -157,15 +161,9 @@ TEST(MeshLines, KeepsOneFamilyAlone) {
 TEST(MeshLines, KeepsComponentsWithoutAnyLine) {
   SampleOptions sample;
   sample.faces = 2000;
-  PolyMesh soup = make_sample(SampleKind::torus, sample);
-  const PolyMesh other = make_sample(SampleKind::sphere, sample);
-  const Index shift = soup.vertex_count();
-  for (const Vec3& p : other.positions) soup.positions.push_back(p + Vec3(5, 0, 0));
-  for (Index f = 0; f < other.face_count(); ++f) {
-    std::vector<Index> face(other.face(f).begin(), other.face(f).end());
-    for (Index& v : face) v += shift;
-    soup.add_face(face);
-  }
+  const PolyMesh soup = support::together(
+      make_sample(SampleKind::torus, sample),
+      support::transformed(make_sample(SampleKind::sphere, sample), Mat3::Identity(), {5, 0, 0}));
   const support::Prepared prepared = support::prepare(soup);
   ASSERT_EQ(census(prepared.mesh).components, 2);
   TraceOptions options;
@@ -179,6 +177,32 @@ TEST(MeshLines, KeepsComponentsWithoutAnyLine) {
     });
     ASSERT_LT(some.line_count(), lines.line_count());
     ASSERT_NO_THROW(expect_same_topology(prepared.mesh, mesh_of(prepared.mesh, some)));
+  }
+}
+
+/// Needles of two hundred sizes and directions, far thinner than lines are apart.
+TEST(MeshLines, KeepsASpaceInsideComponentsWithoutLines) {
+  SampleOptions sample;
+  sample.faces = 2000;
+  PolyMesh soup = make_sample(SampleKind::sphere, sample);
+  PolyMesh cube = support::labelled_cube(8);
+  cube.attributes = {};
+  for (int i = 0; i < 200; ++i) {
+    const Mat3 turn = Eigen::AngleAxisd(i, Vec3(1, i % 7, i % 3).normalized()).toRotationMatrix();
+    const double length = 0.001 * std::pow(1.01, i);
+    const Vec3 thin(length / 2, 0.01 * length, 0.01 * length);
+    soup = support::together(soup, support::transformed(cube, turn * thin.asDiagonal(),
+                                                        {3 + 0.05 * (i % 15), 0.05 * (i / 15), 0}));
+  }
+  const support::Prepared prepared = support::prepare(soup);
+  TraceOptions options;
+  options.vertices = 600;
+  const QuadMesh quads = support::mesh(prepared, support::trace(prepared, options));
+  // No two faces have the same corners.
+  std::set<std::set<Index>> corners;
+  for (Index f = 0; f < quads.mesh.face_count(); ++f) {
+    const std::span<const Index> face = quads.mesh.face(f);
+    EXPECT_TRUE(corners.emplace(face.begin(), face.end()).second) << "face " << f;
   }
 }
 

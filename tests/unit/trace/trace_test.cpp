@@ -10,7 +10,9 @@
 
 #include "common/core/error.h"
 #include "common/geometry/line_chord.h"
+#include "common/geometry/topology/topology.h"
 #include "tests/support/chain.h"
+#include "tests/support/mesh_support.h"
 #include "tests/unit/trace/fields.h"
 
 namespace strake {
@@ -242,6 +244,27 @@ TEST(Trace, GivesUpFacesInWhichLinesKeepFailing) {
     }
     ASSERT_TRUE(queries);
     EXPECT_LT(*queries, 5'000'000);
+  }
+}
+
+/// Lines would wind around them many times within one step.
+TEST(Trace, LeavesOutComponentsSmallerThanTheirDistance) {
+  SampleOptions sample;
+  sample.faces = 1000;
+  const PolyMesh sphere = make_sample(SampleKind::sphere, sample);
+  for (const double size : {1e-4, 1e-3, 0.2}) {
+    const support::Prepared prepared = support::prepare(support::together(
+        sphere, support::transformed(sphere, size * Mat3::Identity(), {2, 0, 0})));
+    TraceOptions options;
+    options.vertices = 400;
+    const LineSet lines = support::trace(prepared, options);
+    const std::vector<Index> component = face_components(prepared.mesh);
+    Index on_speck = 0;
+    for (const LinePoint& p : lines.points) {
+      on_speck += component[TriMesh::face_of(p.halfedge)] != component[0];
+    }
+    EXPECT_EQ(on_speck > 0, size == 0.2) << size << ": " << on_speck;
+    EXPECT_GT(expect_lines_on_surface(prepared.mesh, lines), 100);
   }
 }
 
