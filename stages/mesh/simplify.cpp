@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 namespace strake {
 namespace {
@@ -70,6 +72,29 @@ bool only_one_edge_to(const PolygonGraph& graph, Index dart) {
     if (g.to(d) == g.to(dart) || g.to(d) == g.from(d)) return false;
   }
   return true;
+}
+
+/// Whether merging from(dart) into to(dart) leaves two cells with the same corners, as it does in a
+/// tetrahedron.
+bool puts_cells_back_to_back(const PolygonGraph& graph, Index dart) {
+  const DartGraph& g = graph.graph();
+  std::map<std::set<Index>, Index> cell_of;  // by its corners
+  for (const Index start : {dart, DartGraph::opposite(dart)}) {
+    Index d = start;
+    do {
+      std::set<Index> corners;
+      for (const Index side : graph.cell(d)) {
+        corners.insert(g.from(side) == g.from(dart) ? g.to(dart) : g.from(side));
+      }
+      const Index cell = graph.name_of_cell(d);
+      const bool vanishes = corners.size() < 3;
+      if (!vanishes && !graph.is_hole(d) && cell_of.emplace(corners, cell).first->second != cell) {
+        return true;
+      }
+      d = g.rotate_ccw(d);
+    } while (d != start);
+  }
+  return false;
 }
 
 /// Removes the bigons beside an edge that is about to vanish or has vanished.
@@ -212,12 +237,8 @@ bool keeps_topology(const PolygonGraph& graph, Index dart) {
     for (const Index other : cell) {
       if (g.from(other) == v) return false;
     }
-    // A triangle that would come to lie back to back on another one, as in a tetrahedron.
-    if (cell.size() != 3) continue;
-    const Index across = g.next(DartGraph::opposite(cell[1]));
-    if (g.to(across) == v && g.next(g.next(across)) == DartGraph::opposite(cell[1])) return false;
   }
-  return true;
+  return !puts_cells_back_to_back(graph, dart);
 }
 
 bool can_contract(const PolygonGraph& graph, Index dart) {
