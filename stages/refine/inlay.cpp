@@ -34,6 +34,9 @@ constexpr double kOnOutline = 0.05;
 /// and the share of the cost that remains along a feature line.
 constexpr double kOffCost = 100;
 constexpr double kAlongLine = 1e-6;
+/// Share of all cells that may be those of a component that an inlay takes the place of altogether:
+/// what is left of the result should follow lines.
+constexpr double kMostWhole = 0.1;
 
 using Polygon = std::vector<Index>;
 
@@ -42,7 +45,7 @@ using Polygon = std::vector<Index>;
 /// Connected cells.
 struct InlayCutter::Patch {
   std::vector<Index> cells;  ///< ascending
-  PatchOutline outline;
+  PatchOutline outline;      ///< without paths: they are a whole component
 };
 
 /// The faces of the input over a patch.
@@ -226,10 +229,7 @@ std::optional<InlayCutter::Patch> InlayCutter::patch_of(std::set<Index> cells) c
     PatchOutline outline = patch_outline(faces, {}, [&](Index a, Index b) {
       return boundary.contains({a, b});
     });
-    if (outline.pinched.empty()) {
-      if (outline.paths.empty()) return std::nullopt;
-      return Patch{{cells.begin(), cells.end()}, std::move(outline)};
-    }
+    if (outline.pinched.empty()) return Patch{{cells.begin(), cells.end()}, std::move(outline)};
     for (const Index v : outline.pinched) add_around(v, cells);
   }
   return std::nullopt;
@@ -310,9 +310,23 @@ bool InlayCutter::add_bands(const PatchOutline& outline, const PatchOutline& rin
   return true;
 }
 
+/// The input's component that cells of a component were made from, undivided.
+std::optional<Inlay> InlayCutter::whole_component(std::vector<Index> cells) const {
+  if (static_cast<double>(cells.size()) > kMostWhole * quads_.mesh.face_count()) {
+    return std::nullopt;
+  }
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  const Eigen::AlignedBox3d everywhere(Vec3::Constant(-kFar), Vec3::Constant(kFar));
+  const Index foot = quads_.provenance.face[quads_.mesh.face(cells.front())[0]];
+  SurfacePart part = surface_part(surfaces_.mesh(), {foot}, everywhere, kFar, kMostFaces);
+  if (part.faces.empty()) return std::nullopt;
+  return Inlay{std::move(cells), {}, std::move(part.points), std::move(part.faces)};
+}
+
 std::optional<Inlay> InlayCutter::cut(const std::set<Index>& cells) const {
   std::optional<Patch> patch = patch_of(cells);
   if (!patch) return std::nullopt;
+  if (patch->outline.paths.empty()) return whole_component(std::move(patch->cells));
   Cover cover(*this, *patch);
   PatchOutline ring;
   const std::vector<Index> faces = cover.faces(ring);

@@ -34,7 +34,8 @@ class InlayCutter {
   ///
   /// Faces larger than cells are divided. Over the cells lie those whose corners are all nearer to
   /// them than to the cells around, of cells that face the same way. The cells may reach the
-  /// boundary, and go around handles and loops of the boundary.
+  /// boundary, and go around handles and loops of the boundary. Over a whole component lies a whole
+  /// component of the input, where it is a small part of the result.
   /// \param cells  of the result
   /// \return nothing where the faces over these cells are not connected in the same way
   [[nodiscard]] std::optional<Inlay> cut(const std::set<Index>& cells) const;
@@ -52,6 +53,7 @@ class InlayCutter {
     return {quads_.provenance.face[vertex], quads_.provenance.barycentric[vertex]};
   }
   [[nodiscard]] std::optional<Patch> patch_of(std::set<Index> cells) const;
+  [[nodiscard]] std::optional<Inlay> whole_component(std::vector<Index> cells) const;
   [[nodiscard]] Index neighbour(Index cell, Index a, Index b) const;
   [[nodiscard]] bool add_band(std::span<const Index> outer, std::span<const Index> inner,
                               bool is_closed, Inlay& inlay) const;

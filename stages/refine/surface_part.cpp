@@ -109,7 +109,7 @@ bool divide(const TriMesh& mesh, const Eigen::AlignedBox3d& box, double longest,
     part.data(v).on = point_of_face(mesh, parent, place(part, v));
     for (const auto beside : part.ve_range(v)) consider(beside);
   }
-  return queue.empty();
+  return queue.empty() && part.n_faces() <= most;
 }
 
 }  // namespace

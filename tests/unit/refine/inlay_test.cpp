@@ -161,6 +161,39 @@ TEST(InlayCutter, CutsNoneOfTwoDisksOrOfAll) {
   EXPECT_EQ(inlay->cells.size(), 9u);
 }
 
+/// Flat sheets, all but the last, each of cells x cells cells.
+Case flat_sheets(std::size_t count, Index cells, const support::Height& last) {
+  std::vector<support::Height> heights;
+  for (std::size_t i = 0; i + 1 < count; ++i) {
+    heights.emplace_back([i](double, double) { return 2.0 * static_cast<double>(i); });
+  }
+  heights.push_back(last);
+  return support::sheets(8, cells, heights);
+}
+
+TEST(InlayCutter, CutsSmallComponentsAsAWhole) {
+  const auto below = [](double x, double y) { return terrain(x, y) - 2; };
+  for (const std::size_t count : {9, 10}) {
+    const Case c = flat_sheets(count, 2, below);
+    const ComparedSurfaces surfaces(c.mesh, c.quads);
+    const InlayCutter cutter(surfaces, c.quads);
+    const Index cells = c.quads.mesh.face_count();
+    std::set<Index> last;
+    for (Index f = cells - 4; f < cells; ++f) last.insert(f);
+    const std::optional<Inlay> inlay = cutter.cut(last);
+    ASSERT_EQ(inlay.has_value(), count == 10);
+    if (!inlay) continue;
+    EXPECT_EQ(inlay->cells, std::vector<Index>(last.begin(), last.end()));
+    EXPECT_TRUE(inlay->outline.empty());
+    EXPECT_EQ(inlay->faces.size(), 128u);
+    EXPECT_EQ(inlay->points.size(), 81u);
+    for (const SurfacePoint& point : inlay->points) {
+      const Vec3 p = place_of(c.mesh, point) + c.mesh.origin;
+      EXPECT_NEAR(p.z(), below(p.x(), p.y()), 1e-12);
+    }
+  }
+}
+
 TEST(Thinning, LeavesMoreInBalls) {
   const Case c = grid(64, 8, terrain);
   const ComparedSurfaces surfaces(c.mesh, c.quads);
@@ -373,6 +406,22 @@ TEST(Inlays, LeaveAResultThatTheyCannotMend) {
   ASSERT_FALSE(excess.empty());
   EXPECT_FALSE(inlay_beyond(proof, excess, crossing, quads));
   EXPECT_EQ(quads.mesh.corners, c.quads.mesh.corners);
+}
+
+TEST(Inlays, MendComponentsThatHaveNothingAround) {
+  const Case c = flat_sheets(10, 1, [](double x, double) { return x * (1 - x) - 2; });
+  CrossingPlaces crossing(c.mesh);
+  ToleranceProof proof(std::make_shared<const InputSurface>(c.mesh), 0.02);
+  QuadMesh quads = c.quads;
+  const auto excess = proof.check(ComparedSurfaces(proof.input(), quads));
+  ASSERT_FALSE(excess.empty());
+  EXPECT_TRUE(inlay_beyond(proof, excess, crossing, quads));
+  EXPECT_TRUE(check_tolerance(ComparedSurfaces(c.mesh, quads), 0.02).empty());
+  EXPECT_LT(quads.mesh.face_count(), 9 + 128);  // thinned out
+  const PolyTopology topology = analyse(quads.mesh);
+  EXPECT_TRUE(topology.is_oriented_manifold()) << topology.defects();
+  EXPECT_EQ(topology.components, 10);
+  EXPECT_EQ(topology.boundary_loops, 10);
 }
 
 TEST(Inlays, MakeFacesThatCrossFewer) {
