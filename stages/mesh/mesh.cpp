@@ -27,6 +27,13 @@ constexpr double kShortestEdge = 0.3;
 /// A component whose lines make fewer cells than a tetrahedron has keeps its triangles.
 constexpr Index kFewestCells = 4;
 
+/// What becomes of the triangles of a component: where too few cells are left, the next.
+enum class Triangles : std::uint8_t {
+  merged,  ///< to cells between lines
+  kept,    ///< as cells, which are simplified and joined to quads
+  held,    ///< as simplified: joining them ended with two faces back to back
+};
+
 /// The wanted edge length where a node lies: the smaller of the two line distances.
 double local_size(const TriMesh& mesh, const LineSet& lines, const SurfaceNode& node) {
   double size = 0;
@@ -54,11 +61,12 @@ double wanted_length(const TriMesh& mesh, const LineSet& lines, const PolygonGra
   return std::sqrt(along_min * along_max);
 }
 
-/// Adds the components that have too few cells to be a surface to `starved`; whether there are any.
+/// Takes the next step for components that have too few cells to be a surface. \return whether
+/// there were any
 bool find_starved(const TriMesh& mesh, const std::vector<Index>& component,
-                  const PolygonGraph& graph, std::vector<char>& starved) {
+                  const PolygonGraph& graph, std::vector<Triangles>& triangles) {
   const DartGraph& g = graph.graph();
-  std::vector<Index> cells(starved.size(), 0);
+  std::vector<Index> cells(triangles.size(), 0);
   std::vector<char> seen(g.dart_count(), 0);
   for (Index d = 0; d < g.dart_count(); ++d) {
     if (!g.is_alive(d) || seen[d] != 0) continue;
@@ -66,37 +74,35 @@ bool find_starved(const TriMesh& mesh, const std::vector<Index>& component,
     for (const Index other : cell) seen[other] = 1;
     if (cell.size() > 2 && !graph.is_hole(d)) ++cells[component[graph.node(g.from(d)).face]];
   }
-  std::vector<char> open(starved.size(), 0);  // one cell is enough for a surface with boundary
+  std::vector<char> open(triangles.size(), 0);  // one cell is enough for a surface with boundary
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
     if (mesh.is_boundary(h)) open[component[TriMesh::face_of(h)]] = 1;
   }
   bool found = false;
-  for (std::size_t c = 0; c < starved.size(); ++c) {
-    if (starved[c] != 0 || cells[c] >= (open[c] != 0 ? 1 : kFewestCells)) continue;
-    starved[c] = 1;
+  for (std::size_t c = 0; c < triangles.size(); ++c) {
+    if (triangles[c] == Triangles::held || cells[c] >= (open[c] != 0 ? 1 : kFewestCells)) continue;
+    triangles[c] = triangles[c] == Triangles::merged ? Triangles::kept : Triangles::held;
     found = true;
   }
   return found;
 }
 
 /// Protects the triangle edges of some components from removal.
-void keep_triangles(const std::vector<Index>& component, const std::vector<char>& keep,
+void keep_triangles(const std::vector<Index>& component, const std::vector<Triangles>& triangles,
                     Overlay& overlay) {
   for (Index e = 0; e < overlay.graph.dart_count() / 2; ++e) {
     if (overlay.kind[e] != EdgeKind::surface) continue;
     const Index face = overlay.nodes[overlay.graph.from(2 * e)].face;
-    if (keep[component[face]] != 0) overlay.kind[e] = EdgeKind::line;
+    if (triangles[component[face]] != Triangles::merged) overlay.kind[e] = EdgeKind::line;
   }
 }
 
-/// Leaves the triangles of some components, as far as they have been simplified, to no later step:
-/// joining them to quads would end with two that lie back to back.
-void hold_triangles(const std::vector<Index>& component, const std::vector<char>& keep,
+void hold_triangles(const std::vector<Index>& component, const std::vector<Triangles>& triangles,
                     PolygonGraph& graph) {
   const DartGraph& g = graph.graph();
   for (Index d = 0; d < g.dart_count(); d += 2) {
     if (!g.is_alive(d) || graph.is_barrier(d)) continue;
-    if (keep[component[graph.node(g.from(d)).face]] != 0) graph.hold(d);
+    if (triangles[component[graph.node(g.from(d)).face]] == Triangles::held) graph.hold(d);
   }
 }
 
@@ -200,26 +206,27 @@ Index most_sides(const MeshOptions& options) {
 
 /// The cells as the lines cut them out. \param cuts  set to the number of pieces that cut besides
 PolygonGraph cut_out_cells(const TriMesh& mesh, const LineSet& lines,
-                           const std::vector<Index>& component, const std::vector<char>& starved,
-                           Index& cuts, Observer& observer) {
+                           const std::vector<Index>& component,
+                           const std::vector<Triangles>& triangles, Index& cuts,
+                           Observer& observer) {
   Overlay overlay = build_overlay(mesh, lines, observer);
-  keep_triangles(component, starved, overlay);
+  keep_triangles(component, triangles, overlay);
   observer.report("forming cells", 0.4);
   cuts = reduce_to_lines(overlay);
   return {mesh, overlay};
 }
 
 Cells form_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions& options,
-                 const std::vector<Index>& component, const std::vector<char>& starved,
+                 const std::vector<Index>& component, const std::vector<Triangles>& triangles,
                  Observer& observer) {
   Index cuts = 0;
-  Cells cells{cut_out_cells(mesh, lines, component, starved, cuts, observer), {}, {}, {}, {}};
+  Cells cells{cut_out_cells(mesh, lines, component, triangles, cuts, observer), {}, {}, {}, {}};
   cells.cut_pieces = cuts;
   observer.report("simplifying cells", 0.6);
   cells.simplified = simplify(
       cells.graph, [&](const SurfaceNode& node) { return local_size(mesh, lines, node); },
       kShortestEdge);
-  if (!options.pure_quads) hold_triangles(component, starved, cells.graph);
+  if (!options.pure_quads) hold_triangles(component, triangles, cells.graph);
   cells.split_features = split_crossing_features(cells.graph);
   observer.report("dividing cells", 0.8);
   cells.divided = partition(cells.graph, most_sides(options));
@@ -238,10 +245,11 @@ Cells form_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions& o
 MeshResult mesh_lines(const TriMesh& mesh, const LineSet& lines, const MeshOptions& options,
                       Observer& observer) {
   const std::vector<Index> component = face_components(mesh);
-  std::vector<char> starved(*std::max_element(component.begin(), component.end()) + 1, 0);
-  Cells cells = form_cells(mesh, lines, options, component, starved, observer);
-  while (find_starved(mesh, component, cells.graph, starved)) {
-    cells = form_cells(mesh, lines, options, component, starved, observer);
+  std::vector<Triangles> triangles(*std::max_element(component.begin(), component.end()) + 1,
+                                   Triangles::merged);
+  Cells cells = form_cells(mesh, lines, options, component, triangles, observer);
+  while (find_starved(mesh, component, cells.graph, triangles)) {
+    cells = form_cells(mesh, lines, options, component, triangles, observer);
   }
   MeshResult result;
   result.quads = assemble(mesh, cells.graph);
@@ -249,13 +257,14 @@ MeshResult mesh_lines(const TriMesh& mesh, const LineSet& lines, const MeshOptio
   result.quads.mesh.attributes = carry_attributes(mesh, result.quads.mesh, result.quads.provenance);
 
   Report& report = result.report;
-  const auto kept = std::count(starved.begin(), starved.end(), 1);
+  const auto merged = std::count(triangles.begin(), triangles.end(), Triangles::merged);
+  const auto kept = static_cast<std::int64_t>(triangles.size()) - merged;
   if (kept > 0) {
     report.warn(std::to_string(kept) +
                 " component(s) are smaller than the line distance and keep their triangles");
   }
   report.set("mesh.cut_pieces", static_cast<std::int64_t>(cells.cut_pieces));
-  report.set("mesh.components_kept_as_triangles", static_cast<std::int64_t>(kept));
+  report.set("mesh.components_kept_as_triangles", kept);
   report.set("mesh.contracted_edges", static_cast<std::int64_t>(cells.simplified.contracted_edges));
   report.set("mesh.removed_bigons", static_cast<std::int64_t>(cells.simplified.removed_bigons));
   report.set("mesh.dissolved_nodes", static_cast<std::int64_t>(cells.simplified.dissolved_nodes));
