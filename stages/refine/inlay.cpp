@@ -34,9 +34,6 @@ constexpr double kOnOutline = 0.05;
 /// and the share of the cost that remains along a feature line.
 constexpr double kOffCost = 100;
 constexpr double kAlongLine = 1e-6;
-/// Share of all cells that may be those of a component that an inlay takes the place of altogether:
-/// what is left of the result should follow lines.
-constexpr double kMostWhole = 0.1;
 
 using Polygon = std::vector<Index>;
 
@@ -177,9 +174,11 @@ class InlayCutter::Cover {
   std::vector<std::uint8_t> is_inside_;  ///< [V of the part] 0 or 1
 };
 
-InlayCutter::InlayCutter(const ComparedSurfaces& surfaces, const QuadMesh& quads)
+InlayCutter::InlayCutter(const ComparedSurfaces& surfaces, const QuadMesh& quads,
+                         std::size_t most_whole)
     : surfaces_(surfaces),
       quads_(quads),
+      most_whole_(most_whole),
       lines_(surfaces.mesh()),
       cells_around_(quads.mesh.positions.size()) {
   for (Index f = 0; f < quads.mesh.face_count(); ++f) {
@@ -312,9 +311,7 @@ bool InlayCutter::add_bands(const PatchOutline& outline, const PatchOutline& rin
 
 /// The input's component that cells of a component were made from, undivided.
 std::optional<Inlay> InlayCutter::whole_component(std::vector<Index> cells) const {
-  if (static_cast<double>(cells.size()) > kMostWhole * quads_.mesh.face_count()) {
-    return std::nullopt;
-  }
+  if (cells.size() > most_whole_) return std::nullopt;
   constexpr double kFar = std::numeric_limits<double>::infinity();
   const Eigen::AlignedBox3d everywhere(Vec3::Constant(-kFar), Vec3::Constant(kFar));
   const Index foot = quads_.provenance.face[quads_.mesh.face(cells.front())[0]];

@@ -28,14 +28,15 @@ struct Inlay {
 class InlayCutter {
  public:
   /// \param surfaces, quads  kept by reference; `surfaces` compares `quads`
-  InlayCutter(const ComparedSurfaces& surfaces, const QuadMesh& quads);
+  /// \param most_whole       cells of a component that an inlay may take the place of altogether
+  InlayCutter(const ComparedSurfaces& surfaces, const QuadMesh& quads, std::size_t most_whole = 0);
 
   /// The input's faces over some cells, and over what these enclose.
   ///
   /// Faces larger than cells are divided. Over the cells lie those whose corners are all nearer to
   /// them than to the cells around, of cells that face the same way. The cells may reach the
   /// boundary, and go around handles and loops of the boundary. Over a whole component lies a whole
-  /// component of the input, where it is a small part of the result.
+  /// component of the input.
   /// \param cells  of the result
   /// \return nothing where the faces over these cells are not connected in the same way
   [[nodiscard]] std::optional<Inlay> cut(const std::set<Index>& cells) const;
@@ -62,6 +63,7 @@ class InlayCutter {
 
   const ComparedSurfaces& surfaces_;
   const QuadMesh& quads_;
+  std::size_t most_whole_;
   SurfaceLines lines_;
   std::vector<std::vector<Index>> cells_around_;  ///< [V]
 };

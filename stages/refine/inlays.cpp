@@ -27,6 +27,9 @@ struct Goal {
 };
 constexpr Goal kWithin = {false, 4000, 16};
 constexpr Goal kUncrossed = {true, 1000, 16};
+/// Share of all cells that a component may have whose place an inlay takes altogether: most of a
+/// result should follow lines.
+constexpr double kMostWhole = 0.1;
 /// Faces of an inlay that are not worth it, for faces that cross: for each cell that goes, or as a
 /// share of all cells, whatever is more.
 constexpr std::size_t kMostFacesPerCell = 4;
@@ -81,7 +84,7 @@ class Inlays {
         goal_(goal),
         surfaces_(proof.input(), base_),
         lines_(surfaces_.mesh()),
-        cutter_(surfaces_, base_),
+        cutter_(surfaces_, base_, static_cast<std::size_t>(kMostWhole * base_.mesh.face_count())),
         is_given_up_(static_cast<std::size_t>(base_.mesh.face_count()), 0) {}
 
   /// Makes inlays over cells, and lets them grow; where that ends in vain those are back with which

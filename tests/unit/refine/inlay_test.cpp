@@ -173,15 +173,15 @@ Case flat_sheets(std::size_t count, Index cells, const support::Height& last) {
 
 TEST(InlayCutter, CutsSmallComponentsAsAWhole) {
   const auto below = [](double x, double y) { return terrain(x, y) - 2; };
-  for (const std::size_t count : {9, 10}) {
-    const Case c = flat_sheets(count, 2, below);
-    const ComparedSurfaces surfaces(c.mesh, c.quads);
-    const InlayCutter cutter(surfaces, c.quads);
+  const Case c = flat_sheets(3, 2, below);
+  const ComparedSurfaces surfaces(c.mesh, c.quads);
+  for (const std::size_t most : {3, 4}) {
+    const InlayCutter cutter(surfaces, c.quads, most);
     const Index cells = c.quads.mesh.face_count();
     std::set<Index> last;
     for (Index f = cells - 4; f < cells; ++f) last.insert(f);
     const std::optional<Inlay> inlay = cutter.cut(last);
-    ASSERT_EQ(inlay.has_value(), count == 10);
+    ASSERT_EQ(inlay.has_value(), most == 4);
     if (!inlay) continue;
     EXPECT_EQ(inlay->cells, std::vector<Index>(last.begin(), last.end()));
     EXPECT_TRUE(inlay->outline.empty());
@@ -408,6 +408,7 @@ TEST(Inlays, LeaveAResultThatTheyCannotMend) {
   EXPECT_EQ(quads.mesh.corners, c.quads.mesh.corners);
 }
 
+/// No more than a tenth of the result.
 TEST(Inlays, MendComponentsThatHaveNothingAround) {
   const Case c = flat_sheets(10, 1, [](double x, double) { return x * (1 - x) - 2; });
   CrossingPlaces crossing(c.mesh);
