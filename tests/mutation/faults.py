@@ -339,7 +339,7 @@ FAULTS = [
           "test_fit", "^Fit"),
     Fault("an evaluation beyond the tolerance is none",
           "strake/chain/chain.cpp", "most.parse_into(tolerance);", "static_cast<void>(tolerance);",
-          "test_chain", "^Remesh"),
+          "test_pipeline", "^FrontEnd.KeepsATolerance"),
     Fault("a stage copies what nobody needs after it",
           "strake/chain/session.cpp",
           "port.name == last_use_of ? std::move(value) : value",

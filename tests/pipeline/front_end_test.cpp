@@ -59,6 +59,9 @@ TEST_F(FrontEnd, KeepsAToleranceOrSaysWhereNot) {
     const auto reports = nlohmann::json::parse(bytes("report.json"));
     const auto& distance = reports.at("evaluate").at("result").at("distance");
     EXPECT_LE(distance.at("max_share").get<double>(), Length::parse(tolerance).value);
+    // It would have been an error.
+    const auto& asked = reports.at("evaluate").at("options").at("evaluate-tolerance");
+    EXPECT_EQ(Length::parse(asked.at("value").get<std::string>()), Length::parse(tolerance));
   }
   must_fail(
       6,
