@@ -28,6 +28,8 @@ struct Farthest {
 /// angle between the triangles' normals at a sample and at its nearest point; on an edge or vertex
 /// the nearest of the normals there. The combined RMS is the root of the mean of both squares, the
 /// combined mean the mean of both.
+/// \param samples  positive
+/// \return the largest distance of both ways
 Farthest report_deviation(const SurfaceWithVertices& reference,
                           const SurfaceWithVertices& candidate, double diagonal,
                           std::int64_t samples, Observer& observer, Report& report);

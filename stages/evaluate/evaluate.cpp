@@ -62,7 +62,7 @@ void require_within(const Length& tolerance, const evaluation::Farthest& farthes
   const Vec3 place = farthest.place + reference.origin;
   throw ToleranceError(
       fmt::format("measured afterwards, the result and the surface are {:.6g} apart at ({:.6g}, "
-                  "{:.6g}, {:.6g}), more than the {:.6g} allowed; use a larger tolerance",
+                  "{:.6g}, {:.6g}), more than the {:.6g} allowed",
                   farthest.distance, place.x(), place.y(), place.z(), wanted),
       {farthest.place});
 }

@@ -14,7 +14,7 @@ namespace strake {
 
 struct EvaluateOptions {
   std::int64_t samples = 200000;    ///< of each surface, for distances
-  std::optional<Length> tolerance;  ///< two-sided distance that makes it an error
+  std::optional<Length> tolerance;  ///< two-sided distance beyond which it is an error
 
   OptionList declare();
 };

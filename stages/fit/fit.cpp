@@ -12,13 +12,13 @@
 #include "common/geometry/patch_fill/refill_crossing.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/surface_distance/surface_distance.h"
-#include "common/geometry/topology/topology.h"
 #include "stages/fit/block_system.h"
 #include "stages/fit/deviation.h"
 #include "stages/fit/divide_crossing.h"
 #include "stages/fit/face_guard.h"
 #include "stages/fit/flow_lines.h"
 #include "stages/fit/move_apart.h"
+#include "stages/fit/result_components.h"
 #include "stages/fit/vertex_places.h"
 
 namespace strake {
@@ -48,6 +48,9 @@ constexpr double kLongestMove = 0.25;
 /// Moves by a smaller share of its shortest edge, along the normal or altogether, are rounding:
 /// they would only spoil what lies exactly in a plane.
 constexpr double kShortestMove = 1e-8;
+/// The least share of the mean area of a cell that counts: without any, nothing would hold a
+/// vertex.
+constexpr double kLeastShare = 1e-12;
 constexpr std::array<double, 3> kSteps = {1, 0.5, 0.25};  ///< shares of the moves that are tried
 constexpr int kMostRetreats = 10;  ///< times that vertices are put back for one step
 
@@ -71,8 +74,9 @@ class Fit {
     measure();
     double area = 0;
     for (const double share : vertex_areas()) area += share;
-    unseen_ = kUnseen * std::sqrt(area / quads.mesh.face_count());
-    compare_cells(mesh);
+    const double mean_area = area / quads.mesh.face_count();
+    unseen_ = kUnseen * std::sqrt(mean_area);
+    cell_area_ = share_of_mean_cell(mean_area);
   }
 
   /// Whether nothing can be moved without harm.
@@ -135,42 +139,22 @@ class Fit {
     return squares;
   }
 
-  /// Finds out how much smaller the cells of each component are than those of all, and which
-  /// components are still the triangles of the input.
-  void compare_cells(const TriMesh& mesh) {
-    struct Cells {
-      double area = 0;
-      double faces = 0;
-      std::size_t triangles = 0;
-      std::size_t input_triangles = 0;
-      bool is_at_vertices = true;
-      [[nodiscard]] double mean() const { return area / faces; }
-      [[nodiscard]] bool is_input() const { return is_at_vertices && triangles == input_triangles; }
-    };
-    Cells all;
-    const std::vector<Index> component = face_components(mesh);
-    std::vector<Cells> cells(static_cast<std::size_t>(std::ranges::max(component)) + 1);
-    for (const Index c : component) ++cells[c].input_triangles;
-    const auto cells_at = [&](Index v) -> Cells& {
-      return cells[component[quads_.provenance.face[v]]];
-    };
+  /// [V] mean area of the cells of the vertex's component, as a share of that of all cells, up
+  /// to 1.
+  [[nodiscard]] std::vector<double> share_of_mean_cell(double mean_area) const {
+    const PolyMesh& mesh = quads_.mesh;
+    const std::vector<Index> component = fitting::vertex_components(mesh);
     const std::vector<double> areas = vertex_areas();
-    for (Index v = 0; v < quads_.mesh.vertex_count(); ++v) {
-      all.area += areas[v];
-      cells_at(v).area += areas[v];
-      cells_at(v).is_at_vertices &= std::ranges::max(quads_.provenance.barycentric[v]) == 1;
+    std::vector<double> area(component.size(), 0.0);  // of components, by their name
+    std::vector<double> faces(component.size(), 0.0);
+    for (Index v = 0; v < mesh.vertex_count(); ++v) area[component[v]] += areas[v];
+    for (Index f = 0; f < mesh.face_count(); ++f) ++faces[component[mesh.face(f)[0]]];
+    std::vector<double> share;
+    share.reserve(component.size());
+    for (const Index c : component) {
+      share.push_back(std::clamp(area[c] / faces[c] / mean_area, kLeastShare, 1.0));
     }
-    for (Index f = 0; f < quads_.mesh.face_count(); ++f) {
-      Cells& own = cells_at(quads_.mesh.face(f)[0]);
-      ++all.faces;
-      ++own.faces;
-      own.triangles += quads_.mesh.face(f).size() - 2;
-    }
-    for (Index v = 0; v < quads_.mesh.vertex_count(); ++v) {
-      const Cells& own = cells_at(v);
-      cell_area_.push_back(own.mean() < all.mean() ? own.mean() / all.mean() : 1.0);
-      is_exact_.push_back(own.is_input() ? 1 : 0);
-    }
+    return share;
   }
 
   void measure() {
@@ -222,7 +206,7 @@ class Fit {
       const Mat3 along = places_.normal(v) * places_.normal(v).transpose();
       const double hold = std::max(kHold * area[v], std::numeric_limits<double>::min());
       system_.add(v, v, hold * along + on_surface[v] * (Mat3::Identity() - along));
-      freedom.push_back(is_exact_[v] != 0 ? Mat3(Mat3::Zero()) : places_.freedom(v));
+      freedom.push_back(places_.freedom(v));
     }
     system_.restrict_to(freedom);
     std::vector<Vec3> moves = system_.solve();
@@ -268,10 +252,9 @@ class Fit {
   FlowLines lines_;
   FaceGuard guard_;
   BlockSystem system_;
-  /// [V] mean area of the cells of the component, as a share of that of all cells, up to 1: in this
-  /// ratio to the squared distances of all, those of the component are to be expected.
+  /// [V] see share_of_mean_cell: in this ratio to the squared distances of all, those of the
+  /// component are to be expected.
   std::vector<double> cell_area_;
-  std::vector<std::uint8_t> is_exact_;           ///< [V] 1: of a component that is the input's
   std::vector<std::array<Index, 3>> triangles_;  ///< of the result, at the present places
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/geometry/frames.h"
+#include "stages/fit/result_components.h"
 
 namespace strake::fitting {
 namespace {
@@ -29,8 +30,14 @@ VertexPlaces::VertexPlaces(const TriMesh& mesh, const SurfaceDistance& surface,
       foot_face_(quads.provenance.face),
       foot_(quads.provenance.barycentric) {
   for (Vec3& p : positions_) p -= mesh.origin;
+  const std::vector<std::uint8_t> is_of_input =
+      vertices_of_input(mesh, quads, vertex_components(quads.mesh));
   tbb::parallel_for(Index{0}, quads.mesh.vertex_count(), [&](Index v) {
-    place_on_line(v);
+    if (is_of_input[v] != 0) {
+      lines_[v].kind = Kind::fixed;
+    } else {
+      place_on_line(v);
+    }
     normals_[v] = normal_at_foot(v);
   });
 }

@@ -15,8 +15,8 @@ namespace strake::fitting {
 /// Where the vertices of a result may go, and where they belong on the surface.
 ///
 /// A vertex on a feature or boundary line stays on it: it slides along the line's edges, up to the
-/// corner where the line ends, or once around. Corners do not move at all. All others move freely,
-/// and their foot on the surface follows.
+/// corner where the line ends, or once around. Corners do not move at all, nor does a component
+/// that is the input's triangles. All others move freely, and their foot on the surface follows.
 class VertexPlaces {
  public:
   /// \param mesh, surface  the input and its faces, in the same order

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <utility>
 
-#include "stages/import/disjoint_sets.h"
+#include "common/core/disjoint_sets.h"
 
 namespace strake::import {
 namespace {

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "stages/import/disjoint_sets.h"
+#include "common/core/disjoint_sets.h"
 
 namespace strake::import {
 namespace {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "stages/import/disjoint_sets.h"
+#include "common/core/disjoint_sets.h"
 
 namespace strake::import {
 namespace {

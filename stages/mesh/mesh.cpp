@@ -31,7 +31,7 @@ constexpr Index kFewestCells = 4;
 enum class Triangles : std::uint8_t {
   merged,  ///< to cells between lines
   kept,    ///< as cells, which are simplified and joined to quads
-  held,    ///< as simplified: joining them ended with two faces back to back
+  held,    ///< as simplified: joining them ended with two faces back to back. Not for pure quads
 };
 
 /// The wanted edge length where a node lies: the smaller of the two line distances.
@@ -61,10 +61,10 @@ double wanted_length(const TriMesh& mesh, const LineSet& lines, const PolygonGra
   return std::sqrt(along_min * along_max);
 }
 
-/// Takes the next step for components that have too few cells to be a surface. \return whether
-/// there were any
+/// Takes the next step, up to `last`, for components that have too few cells to be a surface.
+/// \return whether there were any
 bool find_starved(const TriMesh& mesh, const std::vector<Index>& component,
-                  const PolygonGraph& graph, std::vector<Triangles>& triangles) {
+                  const PolygonGraph& graph, Triangles last, std::vector<Triangles>& triangles) {
   const DartGraph& g = graph.graph();
   std::vector<Index> cells(triangles.size(), 0);
   std::vector<char> seen(g.dart_count(), 0);
@@ -80,7 +80,7 @@ bool find_starved(const TriMesh& mesh, const std::vector<Index>& component,
   }
   bool found = false;
   for (std::size_t c = 0; c < triangles.size(); ++c) {
-    if (triangles[c] == Triangles::held || cells[c] >= (open[c] != 0 ? 1 : kFewestCells)) continue;
+    if (triangles[c] == last || cells[c] >= (open[c] != 0 ? 1 : kFewestCells)) continue;
     triangles[c] = triangles[c] == Triangles::merged ? Triangles::kept : Triangles::held;
     found = true;
   }
@@ -97,6 +97,7 @@ void keep_triangles(const std::vector<Index>& component, const std::vector<Trian
   }
 }
 
+/// Protects the edges of what is left of components from all that comes after simplifying.
 void hold_triangles(const std::vector<Index>& component, const std::vector<Triangles>& triangles,
                     PolygonGraph& graph) {
   const DartGraph& g = graph.graph();
@@ -226,7 +227,7 @@ Cells form_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions& o
   cells.simplified = simplify(
       cells.graph, [&](const SurfaceNode& node) { return local_size(mesh, lines, node); },
       kShortestEdge);
-  if (!options.pure_quads) hold_triangles(component, triangles, cells.graph);
+  hold_triangles(component, triangles, cells.graph);
   cells.split_features = split_crossing_features(cells.graph);
   observer.report("dividing cells", 0.8);
   cells.divided = partition(cells.graph, most_sides(options));
@@ -248,7 +249,8 @@ MeshResult mesh_lines(const TriMesh& mesh, const LineSet& lines, const MeshOptio
   std::vector<Triangles> triangles(*std::max_element(component.begin(), component.end()) + 1,
                                    Triangles::merged);
   Cells cells = form_cells(mesh, lines, options, component, triangles, observer);
-  while (find_starved(mesh, component, cells.graph, triangles)) {
+  const Triangles last = options.pure_quads ? Triangles::kept : Triangles::held;
+  while (find_starved(mesh, component, cells.graph, last, triangles)) {
     cells = form_cells(mesh, lines, options, component, triangles, observer);
   }
   MeshResult result;

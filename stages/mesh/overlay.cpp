@@ -5,6 +5,7 @@
 #include <string>
 #include <tuple>
 
+#include "common/core/disjoint_sets.h"
 #include "common/core/error.h"
 #include "common/geometry/line_chord.h"
 #include "stages/mesh/face_arrangement.h"
@@ -173,27 +174,6 @@ class EdgeCutter {
   std::vector<Index> point_node_;  ///< [P] node of each point of the LineSet
   std::vector<Index> first_;       ///< [3F] first edge along a canonical half-edge
   std::vector<Index> count_;       ///< [3F] edges along it
-};
-
-class DisjointSets {
- public:
-  explicit DisjointSets(Index count) : parent_(count) {
-    for (Index i = 0; i < count; ++i) parent_[i] = i;
-  }
-  Index find(Index i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  bool unite(Index a, Index b) {
-    a = find(a);
-    b = find(b);
-    if (a == b) return false;
-    parent_[std::max(a, b)] = std::min(a, b);
-    return true;
-  }
-
- private:
-  std::vector<Index> parent_;
 };
 
 /// Removes surface edges in the order of a walk over cells, so that the cut lines that must stay

@@ -47,7 +47,8 @@ class PolygonGraph {
   /// Joins the origins of two darts of a cell by a straight edge.
   Index connect(Index a, Index b);
   void remove_edge(Index dart) { graph_.remove_edge(dart); }
-  /// From now on the edge and its nodes count as feature and corners: nothing changes them.
+  /// From now on the edge counts as a feature and its nodes as corners: nothing merges or removes
+  /// them.
   void hold(Index dart);
   /// Merges from(dart) into to(dart). Along a feature or boundary line the course of the edge goes
   /// to the next edge of the line, so that no part of it is forgotten.

@@ -82,17 +82,15 @@ bool puts_cells_back_to_back(const PolygonGraph& graph, Index dart) {
   for (const Index start : {dart, DartGraph::opposite(dart)}) {
     Index d = start;
     do {
+      if (graph.is_hole(d)) continue;
       std::set<Index> corners;
       for (const Index side : graph.cell(d)) {
         corners.insert(g.from(side) == g.from(dart) ? g.to(dart) : g.from(side));
       }
+      if (corners.size() < 3) continue;  // vanishes
       const Index cell = graph.name_of_cell(d);
-      const bool vanishes = corners.size() < 3;
-      if (!vanishes && !graph.is_hole(d) && cell_of.emplace(corners, cell).first->second != cell) {
-        return true;
-      }
-      d = g.rotate_ccw(d);
-    } while (d != start);
+      if (cell_of.emplace(std::move(corners), cell).first->second != cell) return true;
+    } while ((d = g.rotate_ccw(d)) != start);
   }
   return false;
 }

@@ -316,7 +316,11 @@ std::optional<Inlay> InlayCutter::whole_component(std::vector<Index> cells) cons
   const Eigen::AlignedBox3d everywhere(Vec3::Constant(-kFar), Vec3::Constant(kFar));
   const Index foot = quads_.provenance.face[quads_.mesh.face(cells.front())[0]];
   SurfacePart part = surface_part(surfaces_.mesh(), {foot}, everywhere, kFar, kMostFaces);
-  if (part.faces.empty()) return std::nullopt;
+  const std::set<Index> faces(part.parent.begin(), part.parent.end());
+  const auto is_on_it = [&](Index v) { return faces.contains(quads_.provenance.face[v]); };
+  for (const Index cell : cells) {  // feet may have moved to another component near by
+    if (!std::ranges::all_of(quads_.mesh.face(cell), is_on_it)) return std::nullopt;
+  }
   return Inlay{std::move(cells), {}, std::move(part.points), std::move(part.faces)};
 }
 

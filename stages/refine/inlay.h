@@ -28,7 +28,7 @@ struct Inlay {
 class InlayCutter {
  public:
   /// \param surfaces, quads  kept by reference; `surfaces` compares `quads`
-  /// \param most_whole       cells of a component that an inlay may take the place of altogether
+  /// \param most_whole       cells of one component, at most, if an inlay takes the place of all
   InlayCutter(const ComparedSurfaces& surfaces, const QuadMesh& quads, std::size_t most_whole = 0);
 
   /// The input's faces over some cells, and over what these enclose.

@@ -27,8 +27,8 @@ struct Goal {
 };
 constexpr Goal kWithin = {false, 4000, 16};
 constexpr Goal kUncrossed = {true, 1000, 16};
-/// Share of all cells that a component may have whose place an inlay takes altogether: most of a
-/// result should follow lines.
+/// Share of all cells that a component may have whose place an inlay takes altogether. Larger ones
+/// should follow lines.
 constexpr double kMostWhole = 0.1;
 /// Faces of an inlay that are not worth it, for faces that cross: for each cell that goes, or as a
 /// share of all cells, whatever is more.
@@ -222,7 +222,7 @@ class Inlays {
   }
 
   /// Lets sites grow where faces are at their outline, and by half all around where faces are only
-  /// further inside; adds one around each face that is in none. \return whether any grew
+  /// further inside; adds one around each face that is in none. \return whether any may grow
   bool widen(const Inlaid& inlaid, const std::vector<Index>& faces) {
     std::vector<char> is_bad(sites_.size(), 0);
     std::vector<std::set<Index>> grown(sites_.size());
@@ -239,9 +239,11 @@ class Inlays {
         cutter_.add_around(inlay.outline[v], grown[inlaid.site[f]]);
       }
     }
+    bool may_grow = false;
     for (std::size_t s = 0; s < grown.size(); ++s) {
       Site& site = sites_[s];
       site.times_bad = is_bad[s] != 0 ? site.times_bad + 1 : 0;
+      may_grow |= is_bad[s] != 0 && !site.inlay.outline.empty();  // else it is all there is
       if (is_bad[s] != 0 && grown[s].empty()) {
         for (int ring = site.rings / 2; ring >= 0; --ring) widen(site);
       }
@@ -252,7 +254,7 @@ class Inlays {
       sites_.push_back({.cells = {cell}});
       widen(sites_.back());
     }
-    return !cells.empty() || std::ranges::find(is_bad, 1) != is_bad.end();
+    return !cells.empty() || may_grow;
   }
 
   /// Cuts the inlay of a site, which grows as long as there is none.

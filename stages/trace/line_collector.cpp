@@ -80,6 +80,7 @@ bool LineCollector::is_left_out(const Seed& seed) const {
 void LineCollector::saturate() {
   phase_ = "filling gaps";
   for (Index f = 0; f < domain_.mesh.face_count(); ++f) {
+    if (is_of_speck_[f] != 0) continue;
     finished_.coverage().for_gaps(f, [&](const Coverage::Gap& gap) {
       tracer_.proximity().clear();
       grow({centred(domain_, seed_of(gap), tracer_.proximity())});
@@ -92,6 +93,7 @@ double LineCollector::largest_gap() {
   proximity.clear();
   double largest = settings_.cover_fraction;
   for (Index f = 0; f < domain_.mesh.face_count(); ++f) {
+    if (is_of_speck_[f] != 0) continue;
     finished_.coverage().for_gaps(f, [&](const Coverage::Gap& gap) {
       const LineGap beside =
           gap_beside(domain_, start_head(domain_, seed_of(gap), true), proximity);

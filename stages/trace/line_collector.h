@@ -25,7 +25,8 @@ class LineCollector {
   void saturate();
 
   /// Largest distance of a place from the nearest line of each direction of its cross, in wanted
-  /// distances. Only what no line has covered needs a look: the rest is nearer than it is covered.
+  /// distances, leaving out components that get no lines. Only what no line has covered needs a
+  /// look: the rest is nearer than it is covered.
   double largest_gap();
 
   [[nodiscard]] LineSet& lines() { return lines_; }

@@ -1,6 +1,9 @@
 #include "strake/chain/chain.h"
 
+#include <string>
+
 #include "common/core/error.h"
+#include "common/core/tolerance_error.h"
 #include "stages/coarsen/stage.h"
 #include "stages/decimate/stage.h"
 #include "stages/evaluate/stage.h"
@@ -109,17 +112,25 @@ std::string Chain::run(Session& session) const {
 }
 
 const Report& Chain::measure(Session& session, const std::string& port) const {
+  const auto is_set = [](const Option& option) { return option.value() == "true"; };
   const std::string tolerance = trace.option("tolerance").value();
-  const bool is_proven = mesh.option("pure-quads").value() != "true";
-  if (const Option& most = evaluate.option("evaluate-tolerance");
-      is_proven && !tolerance.empty() && most.value().empty()) {
-    most.parse_into(tolerance);
-  }
+  const Option& most = evaluate.option("evaluate-tolerance");
+  const bool is_proven = !tolerance.empty() && !is_set(mesh.option("pure-quads")) &&
+                         !is_set(refine.option("refine-partly"));
+  const bool is_check = is_proven && most.value().empty();
+  if (is_check) most.parse_into(tolerance);
   const QuadMesh& quads = session.get<QuadMesh>(port);
   session.provide_as("candidate", Polygons{quads.mesh, quads.mesh_id, {}}, port);
-  const Report& report = session.run(evaluate);
+  const Report* report = nullptr;
+  try {
+    report = &session.run(evaluate);
+  } catch (const ToleranceError& error) {
+    if (!is_check) throw;
+    throw AlgorithmError("a result was taken to be within the tolerance that is not: " +
+                         std::string(error.what()) + "; please report this model");
+  }
   session.keep(evaluate);
-  return report;
+  return *report;
 }
 
 }  // namespace strake

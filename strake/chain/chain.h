@@ -45,7 +45,7 @@ struct Chain {
   /// \return the port of the result
   std::string run(Session& session) const;
   /// Runs the last one, on the result. \return its report
-  /// \throw ToleranceError where it finds the goal's tolerance exceeded, which `run` has proven
+  /// \throw AlgorithmError where it finds the goal's tolerance exceeded, which `run` has proven
   const Report& measure(Session& session, const std::string& port) const;
 
  private:

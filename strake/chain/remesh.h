@@ -49,7 +49,7 @@ struct RemeshOptions {
   SizeOptions size;
   RefineOptions refine;      ///< `tolerance` and `vertices` follow from the goal
   DecimateOptions decimate;  ///< likewise
-  EvaluateOptions evaluate;
+  EvaluateOptions evaluate;  ///< `tolerance` follows from the goal where it is not given
   /// Times that lines are traced again by errors measured, where there is a goal; default: 1, with
   /// a density and a count as many as it takes.
   std::optional<std::int64_t> feedback_rounds;

@@ -6,29 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include "common/core/disjoint_sets.h"
+
 namespace strake {
 namespace {
 
 /// Disjoint sets over 0 .. n - 1; the least member represents a set.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t n) : parent_(n) {
-    std::iota(parent_.begin(), parent_.end(), Index{0});
-  }
-  Index find(Index i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(Index a, Index b) {
-    a = find(a);
-    b = find(b);
-    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<Index> parent_;
-};
-
 void note(ElementDefect& defect, Index element) {
   if (defect.count++ == 0) defect.first = element;
 }
@@ -43,7 +26,7 @@ void note(EdgeDefect& defect, const PolyEdges& edges, Index edge) {
 class Analysis {
  public:
   Analysis(const PolyMesh& mesh, const PolyEdges& edges)
-      : mesh_(mesh), edges_(edges), fans_(mesh.corners.size()) {}
+      : mesh_(mesh), edges_(edges), fans_(static_cast<Index>(mesh.corners.size())) {}
 
   PolyTopology run() {
     census_faces();
@@ -102,8 +85,8 @@ class Analysis {
         if (same_way) note(result_.misoriented_edges, edges_, e);
         const Index after0 = next_corner(mesh_, edges_, sides[0]);
         const Index after1 = next_corner(mesh_, edges_, sides[1]);
-        fans_.join(sides[0], same_way ? sides[1] : after1);
-        fans_.join(after0, same_way ? after1 : sides[1]);
+        fans_.unite(sides[0], same_way ? sides[1] : after1);
+        fans_.unite(after0, same_way ? after1 : sides[1]);
       } else {
         note(result_.nonmanifold_edges, edges_, e);
         for (const Index v : edges_.vertices[e]) on_bad_edge_[v] = 1;
@@ -126,18 +109,18 @@ class Analysis {
   }
 
   void count_components() {
-    DisjointSets sets(static_cast<std::size_t>(mesh_.face_count()));
+    DisjointSets sets(mesh_.face_count());
     for (Index e = 0; e < edges_.edge_count(); ++e) {
       const std::span<const Index> sides = edges_.sides_of(e);
       for (const Index side : sides.subspan(1)) {
-        sets.join(edges_.corner_face[sides[0]], edges_.corner_face[side]);
+        sets.unite(edges_.corner_face[sides[0]], edges_.corner_face[side]);
       }
     }
     for (Index f = 0; f < mesh_.face_count(); ++f) result_.components += sets.find(f) == f ? 1 : 0;
   }
 
   void count_boundary_loops() {
-    DisjointSets loops(static_cast<std::size_t>(edges_.edge_count()));
+    DisjointSets loops(edges_.edge_count());
     std::vector<Index> edge_at_fan(mesh_.corners.size(), kNone);
     for (Index e = 0; e < edges_.edge_count(); ++e) {
       const std::span<const Index> sides = edges_.sides_of(e);
@@ -147,7 +130,7 @@ class Analysis {
         if (known == kNone) {
           known = e;
         } else {
-          loops.join(known, e);
+          loops.unite(known, e);
         }
       }
     }
@@ -158,15 +141,15 @@ class Analysis {
 
   /// Two copies of every face, one turned over: a component can be oriented unless they connect.
   [[nodiscard]] bool can_be_oriented() const {
-    DisjointSets sets(2 * static_cast<std::size_t>(mesh_.face_count()));
+    DisjointSets sets(2 * mesh_.face_count());
     for (Index e = 0; e < edges_.edge_count(); ++e) {
       const std::span<const Index> sides = edges_.sides_of(e);
       if (sides.size() != 2) continue;
       const Index f = edges_.corner_face[sides[0]];
       const Index g = edges_.corner_face[sides[1]];
       const Index turned = is_forward(sides[0]) == is_forward(sides[1]) ? 1 : 0;
-      sets.join(2 * f, 2 * g + turned);
-      sets.join(2 * f + 1, 2 * g + 1 - turned);
+      sets.unite(2 * f, 2 * g + turned);
+      sets.unite(2 * f + 1, 2 * g + 1 - turned);
     }
     for (Index f = 0; f < mesh_.face_count(); ++f) {
       if (sets.find(2 * f) == sets.find(2 * f + 1)) return false;

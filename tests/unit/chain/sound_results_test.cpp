@@ -63,6 +63,13 @@ TEST(Remesh, ATolerancesProofIsChecked) {
   EXPECT_NO_THROW(remesh(input, options));
   options.evaluate.tolerance = percent(0.01);
   EXPECT_THROW(remesh(input, options), ToleranceError);
+  // Nothing is proven of a result that may miss the tolerance.
+  options.evaluate.tolerance.reset();
+  options.trace.tolerance = percent(0.05);
+  options.refine.rounds = 0;
+  EXPECT_THROW(remesh(input, options), ToleranceError);
+  options.refine.partly = true;
+  EXPECT_NO_THROW(remesh(input, options));
 }
 
 // Likewise with so few vertices that a claw has four or five.

@@ -160,7 +160,6 @@ QuadMesh copies_on(const TriMesh& mesh, int copies) {
   return placed_on(mesh, all);
 }
 
-// Every face meets those in its place, 17 with 18 copies, and each of these pairs counts for two.
 /// A coarse result of a sphere beside something a thousandth as large, before and after fitting.
 class FitOfSpecks : public testing::Test {
  protected:
@@ -219,6 +218,7 @@ TEST_F(FitOfSpecks, DoesNotFoldThemUp) {
   EXPECT_LT(speck_area(after_.mesh), 2 * given);
 }
 
+// Every face meets those in its place, 17 with 18 copies, and each of these pairs counts for two.
 TEST(Fit, LeavesManySheetsInOnePlaceAlone) {
   const TriMesh mesh = support::plain_tri_mesh(icosphere(5));
   const QuadMesh few = copies_on(mesh, 12);

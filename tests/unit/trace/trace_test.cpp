@@ -257,7 +257,13 @@ TEST(Trace, LeavesOutComponentsSmallerThanTheirDistance) {
         sphere, support::transformed(sphere, size * Mat3::Identity(), {2, 0, 0})));
     TraceOptions options;
     options.vertices = 400;
-    const LineSet lines = support::trace(prepared, options);
+    SilentObserver observer;
+    const TraceResult result = trace_lines(prepared.mesh, prepared.field, options, observer);
+    const LineSet& lines = result.lines;
+    const auto gap = std::ranges::find(result.report.entries(), "trace.largest_gap",
+                                       [](const auto& entry) { return entry.first; });
+    ASSERT_NE(gap, result.report.entries().end());
+    EXPECT_LT(std::get<double>(gap->second), 1);
     const std::vector<Index> component = face_components(prepared.mesh);
     Index on_speck = 0;
     for (const LinePoint& p : lines.points) {

@@ -6,7 +6,7 @@
 
 #include "common/core/types.h"
 
-namespace strake::import {
+namespace strake {
 
 /// Disjoint sets of 0 .. count - 1 whose representative is their lowest member.
 class DisjointSets {
@@ -18,13 +18,15 @@ class DisjointSets {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  void unite(Index a, Index b) {
+  /// \return whether they were two
+  bool unite(Index a, Index b) {
     const auto [low, high] = std::minmax({find(a), find(b)});
     parent_[high] = low;
+    return low != high;
   }
 
  private:
   std::vector<Index> parent_;
 };
 
-}  // namespace strake::import
+}  // namespace strake
