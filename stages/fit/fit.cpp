@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <ranges>
 #include <vector>
 
 #include "common/geometry/carry_attributes.h"
@@ -280,7 +281,10 @@ FitResult fit_vertices(const TriMesh& mesh, const PrincipalField* field, const Q
   }
   Index divided = 0;
   Index refilled = 0;
-  if (!fit.is_tangled() &&
+  const bool is_pure =
+      std::ranges::all_of(std::views::iota(Index{0}, quads.mesh.face_count()),
+                          [&](Index f) { return quads.mesh.face(f).size() == 4; });  // and stays so
+  if (!is_pure && !fit.is_tangled() &&
       !mendable_crossings(result.quads.mesh, result.quads.mesh.positions).empty()) {
     divided = fitting::divide_crossing_faces(result.quads.mesh);
     refilled = fit.refill(mesh, result.quads);

@@ -1,5 +1,6 @@
 #include "stages/mesh/polygon_graph.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -319,6 +320,12 @@ void PolygonGraph::extend_course(Index first, Index dart) {
 void PolygonGraph::dissolve(Index dart) {
   extend_course(graph_.prev(dart), dart);
   graph_.dissolve_node(dart);
+}
+
+Vec3 PolygonGraph::surface_normal(Index n) const {
+  const auto& [a, b, c] = mesh_->faces[nodes_[n].face];
+  const Vec3& p = mesh_->positions[a];
+  return (mesh_->positions[b] - p).cross(mesh_->positions[c] - p).stableNormalized();
 }
 
 void PolygonGraph::hold(Index dart) {

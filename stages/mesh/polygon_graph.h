@@ -25,6 +25,8 @@ class PolygonGraph {
   [[nodiscard]] const SurfaceNode& node(Index n) const { return nodes_[n]; }
   [[nodiscard]] Index node_count() const { return static_cast<Index>(nodes_.size()); }
   [[nodiscard]] const Vec3& position(Index n) const { return nodes_[n].position; }
+  /// Unit normal of the face of the mesh that a node lies on.
+  [[nodiscard]] Vec3 surface_normal(Index n) const;
   [[nodiscard]] NodeRank rank(Index n) const { return rank_[n]; }
   [[nodiscard]] EdgeKind kind(Index dart) const { return kind_[DartGraph::edge_of(dart)]; }
   [[nodiscard]] Index line(Index dart) const { return line_[DartGraph::edge_of(dart)]; }

@@ -28,6 +28,16 @@ Vec3 newell_after_move(const PolygonGraph& graph, const DartLoop& cell, Index mo
   return normal;
 }
 
+/// Sum of the unit normals of the surface at a cell's corners, one of them moved.
+Vec3 surface_normal(const PolygonGraph& graph, const DartLoop& cell, Index moved, Index target) {
+  Vec3 sum = Vec3::Zero();
+  for (const Index d : cell) {
+    const Index n = graph.graph().from(d);
+    sum += graph.surface_normal(n == moved ? target : n);
+  }
+  return sum;
+}
+
 bool keeps_faces(const PolygonGraph& graph, Index dart) {
   const DartGraph& g = graph.graph();
   const Vec3& target = graph.position(g.to(dart));
@@ -39,6 +49,12 @@ bool keeps_faces(const PolygonGraph& graph, Index dart) {
     const Vec3 after = newell_after_move(graph, cell, g.from(dart), target);
     if (after.dot(before) < kLeastTurnCosine * after.norm() * before.norm()) return false;
     if (!(after.norm() > 0.02 * before.norm())) return false;
+    // Many small turns would turn a small closed component inside out.
+    const Index from = g.from(dart);
+    if (before.dot(surface_normal(graph, cell, kNone, kNone)) > 0 &&
+        !(after.dot(surface_normal(graph, cell, from, g.to(dart))) > 0)) {
+      return false;
+    }
   }
   return true;
 }
