@@ -84,6 +84,17 @@ TEST(Remesh, WithFewVerticesFacesDoNotCross) {
   EXPECT_NEAR(result.quads.mesh.vertex_count(), 200, 10);
 }
 
+// Crossing faces are not made anew then: that takes triangles.
+TEST(Remesh, PureQuadsStayQuads) {
+  RemeshOptions options;
+  options.trace.vertices = 200;
+  options.mesh.pure_quads = true;
+  options.measure = false;
+  const PolyMesh result = remesh({claws(6, 0.3, 0.08, 0.6, 8000), {}, {}, {}}, options).quads.mesh;
+  EXPECT_EQ(result.corners.size(), 4u * static_cast<std::size_t>(result.face_count()));
+  for (Index f = 0; f < result.face_count(); ++f) EXPECT_EQ(result.face(f).size(), 4u);
+}
+
 // Straight edges of cells that are larger than pits in a plate run across them.
 TEST(Remesh, WithFewVerticesFacesOfAPlateDoNotCross) {
   std::vector<support::Disk> pits;

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
 #include <set>
 
@@ -204,6 +205,35 @@ TEST(MeshLines, KeepsASpaceInsideComponentsWithoutLines) {
     const std::span<const Index> face = quads.mesh.face(f);
     EXPECT_TRUE(corners.emplace(face.begin(), face.end()).second) << "face " << f;
   }
+}
+
+TEST(MeshLines, TurnsNoComponentInsideOut) {
+  SampleOptions sample;
+  sample.faces = 500;
+  sample.jitter = 0.5;
+  PolyMesh soup;
+  for (int i = 0; i < 100; ++i) {
+    sample.seed = i;
+    soup = support::together(
+        soup, support::transformed(make_sample(SampleKind::sphere, sample), Mat3::Identity(),
+                                   {3.0 * (i % 10), 3.0 * (i / 10), 0}));
+  }
+  const support::Prepared prepared = support::prepare(soup);
+  TraceOptions options;
+  options.vertices = 400;
+  const QuadMesh quads = support::mesh(prepared, support::trace(prepared, options));
+  const std::vector<Index> component = face_components(prepared.mesh);
+  std::map<Index, double> volumes;  // of components
+  const std::vector<Vec3>& p = quads.mesh.positions;
+  for (Index f = 0; f < quads.mesh.face_count(); ++f) {
+    const std::span<const Index> face = quads.mesh.face(f);
+    double& volume = volumes[component[quads.provenance.face[face[0]]]];
+    for (std::size_t i = 1; i + 1 < face.size(); ++i) {
+      volume += p[face[0]].dot(p[face[i]].cross(p[face[i + 1]])) / 6;
+    }
+  }
+  EXPECT_EQ(volumes.size(), 100u);
+  for (const auto& [c, volume] : volumes) EXPECT_GT(volume, 0) << "component " << c;
 }
 
 TEST(MeshLines, RefusesChordsThatDoNotJoinTwoSidesOfTheirFace) {
