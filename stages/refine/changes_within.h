@@ -12,6 +12,10 @@ namespace strake {
 /// Makes faces that cross others anew (refill_crossing.h) where the tolerance allows it.
 void refill_within(ToleranceProof& proof, QuadMesh& quads);
 
+/// Turns the longest edges of triangles without area, as bands along straight lines have them: the
+/// surface stays the same, up to rounding.
+void turn_flat_triangles_within(ToleranceProof& proof, QuadMesh& quads);
+
 /// Makes quads of odd faces near each other (redivide_faces.h), which dividing leaves, where the
 /// tolerance allows it and no faces come to cross. Edges along feature and boundary lines stay.
 /// \param points  of the input

@@ -103,6 +103,7 @@ class Refinement {
   void finish(ToleranceProof& proof) {
     refill_within(proof, quads_);
     inlay_crossing(proof, crossing_, quads_);
+    turn_flat_triangles_within(proof, quads_);
     pair_odd_cells_within(proof, points_, quads_);
     cut_cells_in_doubt(proof, quads_);
   }
