@@ -26,8 +26,7 @@ using Patch = OpenMesh::TriMesh_ArrayKernelT<Traits>;
 constexpr float kLargestAspect = 5.5;
 /// Share of the distance by which turning an edge may move the surface.
 constexpr double kLargestGap = 0.25;
-constexpr std::ptrdiff_t kTetrahedron = 4;  ///< faces
-constexpr int kMostTurns = 10;              ///< times that all edges are looked at
+constexpr int kMostTurns = 10;  ///< times that all edges are looked at
 
 /// OpenMesh's distance, another one for each vertex that may go.
 template <class MeshT>
@@ -182,10 +181,6 @@ std::vector<std::array<Index, 3>> thin_out(const std::vector<Vec3>& positions,
   decimate(patch, scaled_distance);
   turn_edges(patch, scaled_distance);
 
-  const auto faces_left = std::ranges::distance(patch.faces().begin(), patch.faces().end());
-  const bool is_closed =
-      std::ranges::none_of(patch.edges(), [&](const auto edge) { return patch.is_boundary(edge); });
-  if (is_closed && faces_left < kTetrahedron) return triangles;  // back to back
   std::vector<std::array<Index, 3>> result;
   for (const auto face : patch.faces()) {  // those left; no garbage collection: numbers stay
     std::array<Index, 3> corners = {};

@@ -53,16 +53,6 @@ TEST(ThinOut, KeepsWhatStays) {
       left, [&](const auto& t) { return std::ranges::find(t, kept) != t.end(); }));
 }
 
-TEST(ThinOut, LeavesAClosedSurfaceItsInside) {
-  PolyMesh tetrahedron;
-  tetrahedron.positions = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
-  for (const auto& face : {std::array<Index, 3>{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}) {
-    tetrahedron.add_face(face);
-  }
-  const TriMesh mesh = support::plain_tri_mesh(tetrahedron);
-  EXPECT_EQ(thin_out(mesh.positions, mesh.faces, std::vector<double>(4, 100)).size(), 4u);
-}
-
 TEST(ThinOut, TakesTheDistanceOfThePlace) {
   // Waves across the sheet, which need their vertices where the distance is below their height.
   const TriMesh mesh = grid(16, 1, [](double x, double) { return 0.01 * std::sin(40 * x); }).mesh;
