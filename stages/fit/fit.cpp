@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <ranges>
 #include <vector>
 
 #include "common/geometry/carry_attributes.h"
@@ -58,6 +57,13 @@ constexpr int kMostRetreats = 10;  ///< times that vertices are put back for one
 /// Triangles that faces are cut into by diagonals.
 std::size_t triangle_count(const PolyMesh& mesh) {
   return mesh.corners.size() - 2 * static_cast<std::size_t>(mesh.face_count());
+}
+
+bool has_only_quads(const PolyMesh& mesh) {
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    if (mesh.face(f).size() != 4) return false;
+  }
+  return true;
 }
 
 class Fit {
@@ -281,10 +287,7 @@ FitResult fit_vertices(const TriMesh& mesh, const PrincipalField* field, const Q
   }
   Index divided = 0;
   Index refilled = 0;
-  const bool is_pure =
-      std::ranges::all_of(std::views::iota(Index{0}, quads.mesh.face_count()),
-                          [&](Index f) { return quads.mesh.face(f).size() == 4; });  // and stays so
-  if (!is_pure && !fit.is_tangled() &&
+  if (!has_only_quads(quads.mesh) && !fit.is_tangled() &&
       !mendable_crossings(result.quads.mesh, result.quads.mesh.positions).empty()) {
     divided = fitting::divide_crossing_faces(result.quads.mesh);
     refilled = fit.refill(mesh, result.quads);
