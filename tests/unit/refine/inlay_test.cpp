@@ -100,6 +100,8 @@ TEST(SurfacePart, IsEmptyWhereItWouldHaveTooManyFaces) {
   const Case c = grid(4, 4, terrain);
   const Eigen::AlignedBox3d box(Vec3(0, 0, -1), Vec3(1, 1, 1));
   EXPECT_TRUE(surface_part(c.mesh, {0}, box, 0.01, 1000).faces.empty());
+  EXPECT_TRUE(surface_part(c.mesh, {0}, box, 10, 31).faces.empty());  // of 32, none divided
+  EXPECT_EQ(surface_part(c.mesh, {0}, box, 10, 32).faces.size(), 32u);
 }
 
 /// Of a result of 8 x 8 cells.
@@ -341,15 +343,21 @@ TEST(InlayCutter, GoesInRings) {
   expect_inlay(c, ring, 1, 1);
 }
 
-TEST(Inlays, BringWhatIsBeyondWithinTheTolerance) {
-  const Case c = needle();
+/// A result with inlays where it was beyond a tolerance, which it is not any more.
+QuadMesh mended(const Case& c, double tolerance) {
   CrossingPlaces crossing(c.mesh);
-  ToleranceProof proof(std::make_shared<const InputSurface>(c.mesh), 0.004);
+  ToleranceProof proof(std::make_shared<const InputSurface>(c.mesh), tolerance);
   QuadMesh quads = c.quads;
   const auto excess = proof.check(ComparedSurfaces(proof.input(), quads));
-  ASSERT_FALSE(excess.empty());
-  ASSERT_TRUE(inlay_beyond(proof, excess, crossing, quads));
-  EXPECT_TRUE(check_tolerance(ComparedSurfaces(c.mesh, quads), 0.004).empty());
+  EXPECT_FALSE(excess.empty());
+  EXPECT_TRUE(inlay_beyond(proof, excess, crossing, quads));
+  EXPECT_TRUE(check_tolerance(ComparedSurfaces(c.mesh, quads), tolerance).empty());
+  return quads;
+}
+
+TEST(Inlays, BringWhatIsBeyondWithinTheTolerance) {
+  const Case c = needle();
+  const QuadMesh quads = mended(c, 0.004);
   const PolyTopology topology = analyse(quads.mesh);
   EXPECT_TRUE(topology.is_oriented_manifold());
   EXPECT_EQ(topology.euler, 1);
@@ -411,13 +419,7 @@ TEST(Inlays, LeaveAResultThatTheyCannotMend) {
 /// No more than a tenth of the result.
 TEST(Inlays, MendComponentsThatHaveNothingAround) {
   const Case c = flat_sheets(10, 1, [](double x, double) { return x * (1 - x) - 2; });
-  CrossingPlaces crossing(c.mesh);
-  ToleranceProof proof(std::make_shared<const InputSurface>(c.mesh), 0.02);
-  QuadMesh quads = c.quads;
-  const auto excess = proof.check(ComparedSurfaces(proof.input(), quads));
-  ASSERT_FALSE(excess.empty());
-  EXPECT_TRUE(inlay_beyond(proof, excess, crossing, quads));
-  EXPECT_TRUE(check_tolerance(ComparedSurfaces(c.mesh, quads), 0.02).empty());
+  const QuadMesh quads = mended(c, 0.02);
   EXPECT_LT(quads.mesh.face_count(), 9 + 128);  // thinned out
   const PolyTopology topology = analyse(quads.mesh);
   EXPECT_TRUE(topology.is_oriented_manifold()) << topology.defects();
