@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "common/core/poly_mesh.h"
 #include "common/geometry/cell_error/tolerance_check.h"
 #include "stages/refine/surface_points.h"
@@ -12,14 +14,12 @@ namespace strake {
 /// Makes faces that cross others anew (refill_crossing.h) where the tolerance allows it.
 void refill_within(ToleranceProof& proof, QuadMesh& quads);
 
-/// Turns the longest edges of triangles without area, as bands along straight lines have them: the
-/// surface stays the same, up to rounding.
-void turn_flat_triangles_within(ToleranceProof& proof, QuadMesh& quads);
-
 /// Makes quads of odd faces near each other (redivide_faces.h), which dividing leaves, where the
 /// tolerance allows it and no faces come to cross. Edges along feature and boundary lines stay.
-/// \param points  of the input
-void pair_odd_cells_within(ToleranceProof& proof, const SurfacePoints& points, QuadMesh& quads);
+/// \param points   of the input
+/// \param between  [V] 1: of what may change; empty: all may
+void pair_odd_cells_within(ToleranceProof& proof, const SurfacePoints& points,
+                           const std::vector<char>& between, QuadMesh& quads);
 
 /// Makes triangles of the cells that others could cut otherwise (ToleranceProof::cells_in_doubt):
 /// those by which it was proven. A cell stays where an edge of theirs would be double.

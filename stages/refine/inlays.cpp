@@ -113,6 +113,18 @@ class Inlays {
     return !bad.any();
   }
 
+  /// Gives up the inlays that have faults, unless they leave fewer faces that cross than there are
+  /// without them. \param before  faces that cross then
+  void drop_bad(std::size_t before) {
+    const std::vector<Site> all = sites_;
+    drop_bad();
+    const auto crossing = [&] { return crossing_.faces_of(with_inlays().quads.mesh).size(); };
+    const std::size_t without_bad = crossing();
+    std::vector<Site> good = std::exchange(sites_, all);
+    const bool is_within = !beyond(with_inlays()).any();
+    if (!is_within || crossing() >= std::min(without_bad, before)) sites_ = std::move(good);
+  }
+
   /// Gives up the inlays that have faults.
   void drop_bad() {
     for (;;) {
@@ -140,7 +152,8 @@ class Inlays {
 
   /// Takes vertices out of inlays, fewer around faces that are beyond the tolerance or cross others
   /// then; of what is within it, that is taken of which the fewest cross. \pre they have no faults
-  void thin() {
+  /// \param distance  by which to thin out, at most the tolerance
+  void thin(double distance) {
     std::vector<Thinning> thinnings;
     for (const Site& site : sites_) thinnings.emplace_back(surfaces_, lines_, site.inlay);
     std::vector<std::size_t> changed(sites_.size());
@@ -150,7 +163,7 @@ class Inlays {
     int in_vain = 0;
     for (int time = 0; !changed.empty() && in_vain < kThinningsInVain; ++time) {
       for (const std::size_t s : changed) {
-        sites_[s].inlay.faces = thinnings[s].faces(proof_.tolerance());
+        sites_[s].inlay.faces = thinnings[s].faces(distance);
       }
       const Inlaid now = with_inlays();
       const Faults bad = beyond(now);
@@ -175,7 +188,7 @@ class Inlays {
   }
 
   /// The result with the inlays there are.
-  [[nodiscard]] QuadMesh result() const { return with_inlays().quads; }
+  [[nodiscard]] Inlaid result() const { return with_inlays(); }
 
  private:
   /// What inlays grow for: faces beyond the tolerance, and those that cross if that is the goal.
@@ -430,22 +443,30 @@ bool inlay_beyond(ToleranceProof& proof, const std::vector<Excess>& excess,
   Inlays inlays(proof, quads, crossing, kWithin);
   const bool is_within = inlays.grow(cells);
   if (is_within) {
-    inlays.thin();
-    quads = inlays.result();
+    inlays.thin(proof.tolerance());
+    quads = inlays.result().quads;
   }
   return is_within;
 }
 
-void inlay_crossing(ToleranceProof& proof, CrossingPlaces& crossing, QuadMesh& quads) {
+std::vector<char> inlay_crossing(ToleranceProof& proof, CrossingPlaces& crossing, double thinned_by,
+                                 QuadMesh& quads) {
   const std::vector<Index> cells = crossing.faces_of(quads.mesh);
-  if (cells.empty() || cells.size() > kMostBad) return;
+  if (cells.empty() || cells.size() > kMostBad) return {};
   Inlays inlays(proof, quads, crossing, kUncrossed);
-  if (!inlays.grow(cells)) inlays.drop_bad();
-  inlays.thin();
+  if (!inlays.grow(cells)) inlays.drop_bad(cells.size());
+  inlays.thin(thinned_by);
   inlays.drop_large();
-  QuadMesh result = inlays.result();
-  if (!proof.check(ComparedSurfaces(proof.input(), result)).empty()) return;
-  if (crossing.faces_of(result.mesh).size() < cells.size()) quads = std::move(result);
+  Inlaid result = inlays.result();
+  if (!proof.check(ComparedSurfaces(proof.input(), result.quads)).empty()) return {};
+  if (crossing.faces_of(result.quads.mesh).size() >= cells.size()) return {};
+  quads = std::move(result.quads);
+  std::vector<char> is_of_inlay(quads.mesh.positions.size(), 0);
+  for (Index f = 0; f < quads.mesh.face_count(); ++f) {
+    if (result.site[f] == kNone) continue;
+    for (const Index v : quads.mesh.face(f)) is_of_inlay[v] = 1;
+  }
+  return is_of_inlay;
 }
 
 }  // namespace strake

@@ -23,7 +23,11 @@ bool inlay_beyond(ToleranceProof& proof, const std::vector<Excess>& excess,
                   CrossingPlaces& crossing, QuadMesh& quads);
 
 /// Makes faces fewer that cross others although the input does not, where that can be done within
-/// the tolerance. \pre all of `quads` is within it. \post likewise, and as for `inlay_beyond`
-void inlay_crossing(ToleranceProof& proof, CrossingPlaces& crossing, QuadMesh& quads);
+/// the tolerance.
+/// \param thinned_by  distance by which inlays are thinned out, at most the tolerance
+/// \return [V of `quads`] 1: of a face of an inlay; empty: it is as it was. \pre all of `quads` is
+///         within the tolerance. \post likewise, and as for `inlay_beyond`
+std::vector<char> inlay_crossing(ToleranceProof& proof, CrossingPlaces& crossing, double thinned_by,
+                                 QuadMesh& quads);
 
 }  // namespace strake

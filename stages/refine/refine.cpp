@@ -22,10 +22,12 @@
 #include "common/geometry/poly_topology/poly_topology.h"
 #include "stages/refine/cells_beyond.h"
 #include "stages/refine/changes_within.h"
+#include "stages/refine/flat_faces.h"
 #include "stages/refine/inlays.h"
 #include "stages/refine/split_cells.h"
 #include "stages/refine/surface_cells.h"
 #include "stages/refine/surface_points.h"
+#include "stages/refine/uncross.h"
 
 namespace strake {
 namespace {
@@ -99,12 +101,17 @@ class Refinement {
     }
   }
 
+  /// Takes the input's own faces where faces cross. \return number of faces that no longer do
+  Index uncross() { return strake::uncross(mesh_, points_, crossing_, quads_); }
+
   /// Changes what may be better in a result that is within the tolerance.
   void finish(ToleranceProof& proof) {
+    quads_.mesh.attributes = {};  // carried over anew at the end
     refill_within(proof, quads_);
-    inlay_crossing(proof, crossing_, quads_);
-    turn_flat_triangles_within(proof, quads_);
-    pair_odd_cells_within(proof, points_, quads_);
+    mend_flat_faces_within(proof, quads_);  // what has no area crosses nothing, and hides what does
+    inlay_crossing(proof, crossing_, proof.tolerance(), quads_);
+    mend_flat_faces_within(proof, quads_);
+    pair_odd_cells_within(proof, points_, {}, quads_);
     cut_cells_in_doubt(proof, quads_);
   }
 
@@ -406,6 +413,9 @@ RefineResult refine_cells(const TriMesh& mesh, const QuadMesh& quads, const Refi
     rounds = refine_to_tolerance(mesh, refinement, options, observer, result.report);
   } else if (options.vertices) {
     rounds = refine_to_count(mesh, refinement, options, observer);
+  }
+  if (options.uncross && !options.tolerance) {
+    result.report.set("refine.uncrossed_faces", std::int64_t{refinement.uncross()});
   }
   result.quads = refinement.quads();
   if (const PolyTopology topology = analyse(result.quads.mesh); !topology.is_oriented_manifold()) {

@@ -9,6 +9,10 @@ std::int64_t count_of(const Session& session, const char* port, Counted counted)
   return counted == Counted::vertices ? mesh.vertex_count() : mesh.face_count();
 }
 
+const char* result_port(const Session& session) {
+  return session.has("uncrossed") ? "uncrossed" : "fitted";
+}
+
 const char* name_of(Counted counted) { return counted == Counted::vertices ? "vertices" : "faces"; }
 
 }  // namespace strake

@@ -9,6 +9,9 @@ namespace strake {
 /// What is counted.
 enum class Counted { vertices, faces };
 
+/// The port of a result for a count: of what was fitted, or of that without faces that crossed.
+const char* result_port(const Session& session);
+
 /// Vertices or faces of the quads at a port.
 std::int64_t count_of(const Session& session, const char* port, Counted counted);
 

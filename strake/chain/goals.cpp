@@ -60,6 +60,8 @@ constexpr double kCloser = 0.6;
 /// tried for them before.
 constexpr int kPatience = 5;
 constexpr int kPatienceWithinTolerance = 2;
+/// Faces that cross, up to which the input's own are tried in their place for a count.
+constexpr std::size_t kMostUncrossed = 1000;
 /// Vertices of a result within a tolerance, over those of the input, of which the user is told.
 constexpr Index kExcessive = 2;
 /// Share of the distances of lines around faces that cross.
@@ -85,7 +87,8 @@ struct LineAim {
 
 void trace_and_mesh(Session& session, const GoalStages& stages) {
   // Earlier results make room for those that take their place.
-  for (const char* port : {"lines", "quads", "fitted", "refined"}) session.withdraw(port);
+  for (const char* port : {"lines", "quads", "fitted", "refined", "uncrossed"})
+    session.withdraw(port);
   session.run(stages.trace);
   session.run(stages.mesh);
 }
@@ -354,8 +357,35 @@ std::int64_t to_add(std::int64_t given, const LineAim& aim) {
   return std::llround(std::max(std::min(wanted, most) - have, aim.left / 2 * wanted));
 }
 
-/// Divides the worst cells for what is missing of the count, and fits vertices.
-/// \pre traced and meshed
+/// The stage that replaces faces of a fitted result that cross.
+Stage uncross_stage(const GoalStages& stages) {
+  Stage uncross = stages.refine;
+  uncross.output.name = "uncrossed";
+  return uncross;
+}
+
+/// Takes the input's own faces where faces cross, as long as the count allows it.
+/// \return places where faces still cross \pre fitted
+std::vector<Vec3> uncross(Session& session, const GoalStages& stages, const LineAim& aim,
+                          CrossingPlaces& crossing) {
+  std::vector<Vec3> places = crossing.of(session.get<QuadMesh>("fitted").mesh);
+  if (places.empty() || places.size() > kMostUncrossed || only_quads(stages)) return places;
+  Session tried = session;
+  const Option& is_wanted = stages.refine.option("refine-uncross");
+  stages.refine.option("refine-vertices").parse_into("");
+  is_wanted.parse_into("true");
+  tried.run(uncross_stage(stages));
+  is_wanted.parse_into("false");
+  const double miss = aim.miss(count_of(tried, "uncrossed", aim.counted));
+  const double before = aim.miss(count_of(session, "fitted", aim.counted));
+  std::vector<Vec3> left = crossing.of(tried.get<QuadMesh>("uncrossed").mesh);
+  if (left.size() >= places.size() || miss > std::max(before, kCountTolerance)) return places;
+  session = tried;
+  return left;
+}
+
+/// Divides the worst cells for what is missing of the count, fits vertices and parts faces that
+/// cross. \pre traced and meshed
 Attempt fit_to_count(Session session, const GoalStages& stages, const LineAim& aim,
                      CrossingPlaces& crossing) {
   session.keep(stages.trace);
@@ -375,14 +405,19 @@ Attempt fit_to_count(Session session, const GoalStages& stages, const LineAim& a
     session.run(stages.fit);
   }
   session.keep(stages.fit);
-  return {meshed, session, crossing.of(session.get<QuadMesh>("fitted").mesh)};
+  std::vector<Vec3> places = uncross(session, stages, aim, crossing);
+  return {meshed, session, std::move(places)};
+}
+
+LineAim aim_of(const Session& session, const GoalStages& stages, Counted counted,
+               std::int64_t wanted) {
+  const double left = goes_by_errors(session, stages) ? kLeftForWorst : 0;
+  return {counted, std::llround((1 - left) * static_cast<double>(wanted)), wanted, left};
 }
 
 /// Traces, feeds errors back, looks for the count, fits, and traces closer where faces cross.
-void trace_to_count(Session& session, const GoalStages& stages, Counted counted,
-                    std::int64_t wanted, std::optional<std::int64_t> feedback_rounds) {
-  const double left = goes_by_errors(session, stages) ? kLeftForWorst : 0;
-  const LineAim aim{counted, std::llround((1 - left) * static_cast<double>(wanted)), wanted, left};
+void trace_to_count(Session& session, const GoalStages& stages, const LineAim& aim,
+                    std::optional<std::int64_t> feedback_rounds) {
   if (session.has("density") && !feedback_rounds) {
     const DensityMatch match = match_density(session, stages);
     follow_density(session, stages, match, aim);
@@ -396,12 +431,12 @@ void trace_to_count(Session& session, const GoalStages& stages, Counted counted,
   }
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
   const Attempt first = fit_to_count(session, stages, aim, crossing);
-  const double first_miss = aim.miss(count_of(first.done, "fitted", counted));
+  const double first_miss = aim.miss(count_of(first.done, result_port(first.done), aim.counted));
   const auto again = [&](Session next, const std::vector<Vec3>& places) {
     want_relatively_closer(next, places, kCloserWhereCrossing);
     search_scale(next, stages, aim);
     Attempt attempt = fit_to_count(next, stages, aim, crossing);
-    const double miss = aim.miss(count_of(attempt.done, "fitted", counted));
+    const double miss = aim.miss(count_of(attempt.done, result_port(attempt.done), aim.counted));
     attempt.misses_goal = miss > std::max(first_miss, kCountTolerance);
     return attempt;
   };
@@ -433,21 +468,28 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
                        bool lines_only, double working_ratio) {
   std::optional<Session> coarser = on_coarser_mesh(session, stages, wanted, working_ratio);
   if (!coarser) estimate_field(session, stages);
-  trace_to_count(coarser ? *coarser : session, stages, counted, wanted, feedback_rounds);
-  if (coarser) take_from_coarser_mesh(session, std::move(*coarser), stages);
+  const LineAim aim = aim_of(session, stages, counted, wanted);
+  trace_to_count(coarser ? *coarser : session, stages, aim, feedback_rounds);
+  if (coarser) {
+    take_from_coarser_mesh(session, std::move(*coarser), stages);
+    CrossingPlaces crossing(session.get<TriMesh>("mesh"));
+    uncross(session, stages, aim, crossing);
+  }
   // What a user says of directions and of lines decimation knows nothing of.
   const bool needs_lines =
       lines_only || only_quads(stages) || session.has("density") || session.has("guides");
   if (!needs_lines) decimate_if_too_coarse(session, stages, counted, wanted);
-  const std::int64_t reached = count_of(session, "fitted", counted);
-  const double miss = static_cast<double>(std::abs(reached - wanted)) / static_cast<double>(wanted);
+  if (session.has("uncrossed")) session.keep(uncross_stage(stages));
+  const char* port = result_port(session);
+  const std::int64_t reached = count_of(session, port, counted);
+  const double miss = aim.miss(reached);
   if (miss > kCountTolerance) {
     session.say(fmt::format(
         "warning: {} {} were wanted, but the nearest result has {}: the shape, --max-spacing or "
         "the mesh's own resolution do not allow it",
         wanted, name_of(counted), reached));
   }
-  return "fitted";
+  return port;
 }
 
 std::string follow_spacing(Session& session, const GoalStages& stages) {

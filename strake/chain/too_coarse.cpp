@@ -66,8 +66,9 @@ CellSampling sampling_of(const PolyMesh& result, double samples) {
 
 Faults faults_of(const Session& session, const Goal& goal, double samples = kSamples) {
   const auto& mesh = session.get<TriMesh>("mesh");
-  const auto& result = session.get<QuadMesh>("fitted");
-  const double share = reached(session, "fitted", goal);
+  const char* port = result_port(session);
+  const auto& result = session.get<QuadMesh>(port);
+  const double share = reached(session, port, goal);
   const double cell = std::sqrt(area(mesh) / result.mesh.vertex_count() * share);
   const auto crossing = static_cast<double>(CrossingPlaces(mesh).of(result.mesh).size());
   return {
@@ -116,6 +117,7 @@ void decimate_if_too_coarse(Session& session, const GoalStages& stages, Counted 
   session.say(fmt::format("lines are coarse for this shape at {} {}; decimating to compare", wanted,
                           name_of(counted)));
   Session other = session;
+  other.withdraw("uncrossed");
   try {
     decimate_to_count(other, stages, goal);
     other.provide_as("quads", other.get<QuadMesh>("decimated"), "decimated");

@@ -8,6 +8,7 @@
 #include "common/core/fields.h"
 #include "common/core/poly_mesh.h"
 #include "common/core/tri_mesh.h"
+#include "strake/chain/counted.h"
 
 namespace strake {
 namespace {
@@ -46,10 +47,10 @@ std::optional<Session> on_coarser_mesh(const Session& session, const GoalStages&
 }
 
 void take_from_coarser_mesh(Session& session, Session coarser, const GoalStages& stages) {
-  coarser.use_as("coarse-quads", "fitted");
+  coarser.use_as("coarse-quads", result_port(coarser));
   coarser.take_from(session, {"mesh"});
   session = std::move(coarser);
-  for (const char* port : {"lines", "size", "refined"}) session.withdraw(port);
+  for (const char* port : {"lines", "size", "refined", "uncrossed"}) session.withdraw(port);
   session.run(stages.lift);
   session.keep(stages.lift);
   session.use_as("quads", "lifted");

@@ -301,6 +301,30 @@ void ToleranceProof::carry_over(const SurfaceDistance& result) {
   is_proven_ = std::move(is_proven);
 }
 
+void ToleranceProof::assume(const ComparedSurfaces& surfaces) {
+  const TriMesh& mesh = input_->mesh;
+  std::vector<Index> nearest(mesh.positions.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, nearest.size()), [&](const auto& range) {
+    Index last = kNone;
+    for (std::size_t v = range.begin(); v < range.end(); ++v) {
+      last = surfaces.result().closest_near(mesh.positions[v], last).triangle;
+      nearest[v] = last;
+    }
+  });
+  carry_over(surfaces.result());
+  std::ranges::fill(is_proven_, 1);
+  others_near_.clear();
+  for (std::size_t f = 0; f < near_.size(); ++f) {
+    const auto& [a, b, c] = mesh.faces[f];
+    near_[f] = nearest[a];
+    std::vector<Index> others;
+    for (const Index v : {b, c}) {
+      if (nearest[v] != nearest[a]) others.push_back(nearest[v]);
+    }
+    if (!others.empty()) others_near_[static_cast<Index>(f)] = std::move(others);
+  }
+}
+
 std::vector<Excess> ToleranceProof::check(const ComparedSurfaces& surfaces) {
   return check(surfaces.result(), surfaces.triangles().face);
 }

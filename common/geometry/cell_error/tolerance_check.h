@@ -42,6 +42,11 @@ class ToleranceProof {
   [[nodiscard]] const std::shared_ptr<const InputSurface>& input() const { return input_; }
   [[nodiscard]] double tolerance() const { return tolerance_; }
 
+  /// Takes a result as it is for proven, and what is nearest to the vertices of each face of the
+  /// input for near to all of it: from now on only what other results have instead is checked.
+  /// \pre `surfaces` compares with `input`
+  void assume(const ComparedSurfaces& surfaces);
+
   /// \return as `check_tolerance`. \pre `surfaces` compares with `input`
   std::vector<Excess> check(const ComparedSurfaces& surfaces);
 

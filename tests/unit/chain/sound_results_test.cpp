@@ -41,6 +41,13 @@ std::size_t crossings(const PolyMesh& mesh) {
   return find_crossing_faces(mesh.positions, triangulate_faces(mesh)).size();
 }
 
+class Listener : public StageObserver {
+ public:
+  void report(std::string_view /*phase*/, double /*fraction*/) override {}
+  void say(const std::string& line) override { said += line + '\n'; }
+  std::string said;
+};
+
 // With lines for the tolerance alone cells lie across a claw, and dividing them leaves hundreds
 // of pairs of faces that cross.
 TEST(Remesh, WithinAToleranceFacesDoNotCross) {
@@ -82,6 +89,22 @@ TEST(Remesh, WithFewVerticesFacesDoNotCross) {
   const RemeshResult result = remesh({mesh, {}, {}, {}}, options);
   EXPECT_EQ(crossings(result.quads.mesh), 0u);
   EXPECT_NEAR(result.quads.mesh.vertex_count(), 200, 10);
+}
+
+// The input's own faces are instead of those that cross, which takes less time than all lines anew.
+TEST(Remesh, LinesAreNotTracedAgainForSingleFacesThatCross) {
+  const PolyMesh mesh = claws(8, 0.3, 0.06, 0.6, 20000);
+  for (const std::int64_t vertices : {500, 600, 900}) {
+    RemeshOptions options;
+    options.trace.vertices = vertices;
+    options.measure = false;
+    Listener listener;
+    const RemeshResult result = remesh({mesh, {}, {}, {}}, options, listener);
+    EXPECT_EQ(listener.said.find("faces cross"), std::string::npos) << listener.said;
+    EXPECT_EQ(crossings(result.quads.mesh), 0u);
+    EXPECT_NEAR(static_cast<double>(result.quads.mesh.vertex_count()),
+                static_cast<double>(vertices), 0.05 * static_cast<double>(vertices));
+  }
 }
 
 // Crossing faces are not made anew then: that takes triangles.
@@ -169,13 +192,6 @@ TEST(Remesh, LinesAreCloserOnlyWhereDividingDoesNotReachTheTolerance) {
   EXPECT_LT(vertices_below(claws(6, 0.3, 0.08, 0.6, 8000)),
             1.5 * vertices_below(make_sample(SampleKind::sphere, sample)));
 }
-
-class Listener : public StageObserver {
- public:
-  void report(std::string_view /*phase*/, double /*fraction*/) override {}
-  void say(const std::string& line) override { said += line + '\n'; }
-  std::string said;
-};
 
 // Within a tolerance that its own faces are coarse against a mesh is a polyhedron with many edges.
 TEST(Remesh, SaysWhereAToleranceTakesFarMoreVerticesThanTheInputHas) {

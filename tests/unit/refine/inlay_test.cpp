@@ -427,9 +427,9 @@ TEST(Inlays, MendComponentsThatHaveNothingAround) {
   EXPECT_EQ(topology.boundary_loops, 10);
 }
 
-TEST(Inlays, MakeFacesThatCrossFewer) {
-  // Over a flat with small waves a vertex lies beyond its neighbours; the outline of the cells
-  // around it crosses itself, so that the vertex cannot just be taken out.
+/// Over a flat with small waves a vertex lies beyond its neighbours; the outline of the cells
+/// around it crosses itself, so that the vertex cannot just be taken out.
+Case crossed() {
   Case c = grid(32, 8, [](double x, double y) { return 0.2 * terrain(x, y); });
   const auto put = [&](Index v, const SurfacePoint& point) {
     c.quads.provenance.face[v] = point.face;
@@ -442,16 +442,69 @@ TEST(Inlays, MakeFacesThatCrossFewer) {
                        c.quads.provenance.barycentric[4 * 9 + 5]};
   put(4 * 9 + 4, b);
   put(4 * 9 + 5, a);
+  return c;
+}
+
+TEST(Inlays, MakeFacesThatCrossFewer) {
+  const Case c = crossed();
   CrossingPlaces crossing(c.mesh);
   ASSERT_FALSE(crossing.faces_of(c.quads.mesh).empty());
   ToleranceProof proof(std::make_shared<const InputSurface>(c.mesh), 0.02);
   QuadMesh quads = c.quads;
   ASSERT_TRUE(proof.check(ComparedSurfaces(proof.input(), quads)).empty());
-  inlay_crossing(proof, crossing, quads);
+  const std::vector<char> is_of_inlay = inlay_crossing(proof, crossing, 0.02, quads);
   EXPECT_TRUE(crossing.faces_of(quads.mesh).empty());
   EXPECT_TRUE(check_tolerance(ComparedSurfaces(c.mesh, quads), 0.02).empty());
   EXPECT_TRUE(analyse(quads.mesh).is_oriented_manifold());
   EXPECT_EQ(analyse(quads.mesh).euler, 1);
+  ASSERT_EQ(is_of_inlay.size(), quads.mesh.positions.size());
+  for (std::size_t v = 0; v < is_of_inlay.size(); ++v) {
+    const Vec3& p = quads.mesh.positions[v];
+    const bool is_far = std::max(std::abs(p.x() - 0.5625), std::abs(p.y() - 0.5)) > 0.45;
+    EXPECT_FALSE(is_far && is_of_inlay[v] != 0);
+  }
+}
+
+/// Without a tolerance, and where other places are far from the surface.
+TEST(Uncross, ReplacesOnlyWhatCrosses) {
+  Case c = crossed();
+  c.quads.mesh.positions[9 + 1].z() += 0.1;
+  RefineOptions options;
+  SilentObserver observer;
+  CrossingPlaces crossing(c.mesh);
+  const auto crossing_in = [&](const QuadMesh& quads) {
+    return crossing.faces_of(quads.mesh).size();
+  };
+  const std::size_t before = crossing_in(refine_cells(c.mesh, c.quads, options, observer).quads);
+  ASSERT_GT(before, 0u);
+  options.uncross = true;
+  const RefineResult result = refine_cells(c.mesh, c.quads, options, observer);
+  const PolyMesh& mesh = result.quads.mesh;
+  EXPECT_EQ(crossing_in(result.quads), 0u);
+  const auto& entries = result.report.entries();
+  const auto uncrossed = std::ranges::find(entries, "refine.uncrossed_faces",
+                                           [](const auto& entry) { return entry.first; });
+  ASSERT_NE(uncrossed, entries.end());
+  EXPECT_EQ(std::get<std::int64_t>(uncrossed->second), static_cast<std::int64_t>(before));
+  EXPECT_TRUE(analyse(mesh).is_oriented_manifold());
+  EXPECT_EQ(analyse(mesh).euler, 1);
+  // Cells around the lifted vertex stay, though nothing else is so far from the surface.
+  const Vec3& lifted = c.quads.mesh.positions[9 + 1];
+  EXPECT_EQ(std::ranges::count(mesh.positions, lifted), 1);
+  const auto is_quad = [&](Index f) { return mesh.face(f).size() == 4; };
+  Index quads = 0;
+  for (Index f = 0; f < mesh.face_count(); ++f) quads += is_quad(f) ? 1 : 0;
+  EXPECT_GT(quads, 64 - 16);
+  EXPECT_LT(mesh.face_count(), 64 + 32);  // thinned out
+}
+
+TEST(Uncross, LeavesWhatDoesNotCross) {
+  const Case c = grid(32, 8, terrain);
+  RefineOptions options;
+  options.uncross = true;
+  SilentObserver observer;
+  EXPECT_EQ(refine_cells(c.mesh, c.quads, options, observer).quads.mesh.positions,
+            c.quads.mesh.positions);
 }
 
 }  // namespace

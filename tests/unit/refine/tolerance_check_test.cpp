@@ -198,6 +198,27 @@ TEST(ToleranceProof, WatchesAllThatAFaceIsNearTo) {
   }
 }
 
+/// A result far from the surface is taken as it is; what is farther then is found, of either.
+TEST(ToleranceProof, ChecksOnlyWhatIsNotAsItWasAssumed) {
+  Case c = grid(16, 8, [](double, double) { return 0.0; });
+  for (Vec3& p : c.quads.mesh.positions) p.z() += 0.05;
+  ToleranceProof proof(std::make_shared<const InputSurface>(c.mesh), 0.01);
+  proof.assume(ComparedSurfaces(proof.input(), c.quads));
+  EXPECT_TRUE(proof.check(ComparedSurfaces(proof.input(), c.quads)).empty());
+  const Vec3 moved = c.quads.mesh.positions[4 * 9 + 4];
+  c.quads.mesh.positions[4 * 9 + 4].z() += 0.1;
+  const std::vector<Excess> found = proof.check(ComparedSurfaces(proof.input(), c.quads));
+  const auto is_on_input = [](const Excess& e) { return e.input_face != kNone; };
+  EXPECT_TRUE(std::ranges::any_of(found, is_on_input));
+  EXPECT_FALSE(std::ranges::all_of(found, is_on_input));
+  const double cell = 1.0 / 8;
+  for (const Excess& e : found) {
+    EXPECT_LT(std::abs(e.place.x() - moved.x()), 1.5 * cell);
+    EXPECT_LT(std::abs(e.place.y() - moved.y()), 1.5 * cell);
+  }
+  ASSERT_FALSE(check_tolerance(ComparedSurfaces(c.mesh, c.quads), 0.01).size() <= found.size());
+}
+
 /// The same excesses for any number of threads, and when both surfaces are moved.
 TEST(ToleranceCheck, DependsOnNeitherPlaceNorScale) {
   std::mt19937 random(5);
