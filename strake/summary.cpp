@@ -32,6 +32,11 @@ std::string summary_text(const std::string& output, const PolyMesh& mesh, const 
       text += fmt::format("  {:<28} {:.3g} {}\n", label, *value * factor, unit);
     }
   };
+  const auto count = [&](const char* label, const char* key) {
+    if (const auto value = measure(*measures, key)) {
+      text += fmt::format("  {:<28} {:.0f}\n", label, *value);
+    }
+  };
   if (const auto sound = measure(*measures, "topology.candidate.oriented_manifold")) {
     const auto equal = measure(*measures, "topology.equal");
     text += fmt::format("  {:<28} {}{}\n", "topology",
@@ -48,8 +53,8 @@ std::string summary_text(const std::string& output, const PolyMesh& mesh, const 
   }
   line("within 10 deg of own field", "alignment.within_10_deg_share", 100, "% of the edge length");
   line("smallest angle", "angles.min_deg", 1, "deg");
-  line("concave faces", "faces.concave", 1, "");
-  line("crossing pairs of faces", "shape.self_intersecting_pairs", 1, "");
+  count("concave faces", "faces.concave");
+  count("crossing pairs of faces", "shape.self_intersecting_pairs");
   return text;
 }
 

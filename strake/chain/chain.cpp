@@ -1,9 +1,12 @@
 #include "strake/chain/chain.h"
 
+#include <fmt/format.h>
+
 #include <string>
 
 #include "common/core/error.h"
 #include "common/core/tolerance_error.h"
+#include "common/geometry/face_crossings/crossing_places.h"
 #include "stages/coarsen/stage.h"
 #include "stages/decimate/stage.h"
 #include "stages/evaluate/stage.h"
@@ -24,6 +27,17 @@ namespace {
 
 /// Heights of ridges that cells across them would cut off, in tolerances.
 constexpr double kRidgeHeight = 2;
+
+/// What one sees at once in a result should not be a surprise.
+void warn_of_crossing(Session& session, const std::string& port) {
+  CrossingPlaces crossing(session.get<TriMesh>("mesh"));
+  const std::size_t faces = crossing.faces_of(session.get<QuadMesh>(port).mesh).size();
+  if (faces == 0) return;
+  session.say(fmt::format(
+      "warning: {} face(s) of the result cross others although the input does not there: cells are "
+      "larger than its details or than the space between its sheets; ask for more of them",
+      faces));
+}
 
 }  // namespace
 
@@ -108,7 +122,9 @@ std::string Chain::run(Session& session) const {
   session.run(import);
   session.keep(import);
   session.withdraw("input");  // as large as all that is needed afterwards
-  return reach_goal(session);
+  const std::string port = reach_goal(session);
+  warn_of_crossing(session, port);
+  return port;
 }
 
 const Report& Chain::measure(Session& session, const std::string& port) const {

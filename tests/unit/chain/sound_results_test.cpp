@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "common/core/tolerance_error.h"
 #include "common/geometry/face_crossings/face_crossings.h"
@@ -191,6 +193,27 @@ TEST(Remesh, LinesAreCloserOnlyWhereDividingDoesNotReachTheTolerance) {
   };
   EXPECT_LT(vertices_below(claws(6, 0.3, 0.08, 0.6, 8000)),
             1.5 * vertices_below(make_sample(SampleKind::sphere, sample)));
+}
+
+// Quads alone are neither made anew where they cross nor replaced.
+TEST(Remesh, SaysThatFacesCross) {
+  RemeshOptions options;
+  options.trace.vertices = 200;
+  options.mesh.pure_quads = true;
+  options.measure = false;
+  const auto said_of = [&](double height) {
+    Listener listener;
+    const PolyMesh mesh = claws(12, 0.4, 0.05, height, 20000);
+    const PolyMesh result = remesh({mesh, {}, {}, {}}, options, listener).quads.mesh;
+    return std::pair(crossings(result), listener.said);
+  };
+  constexpr const char* kWarning = "cross others although the input does not";
+  const auto [crossing, said] = said_of(0.8);
+  ASSERT_GT(crossing, 0u);
+  EXPECT_NE(said.find(kWarning), std::string::npos) << said;
+  const auto [none, nothing] = said_of(0.0);
+  ASSERT_EQ(none, 0u);
+  EXPECT_EQ(nothing.find(kWarning), std::string::npos) << nothing;
 }
 
 // Within a tolerance that its own faces are coarse against a mesh is a polyhedron with many edges.
