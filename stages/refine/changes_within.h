@@ -16,10 +16,10 @@ void refill_within(ToleranceProof& proof, QuadMesh& quads);
 
 /// Makes quads of odd faces near each other (redivide_faces.h), which dividing leaves, where the
 /// tolerance allows it and no faces come to cross. Edges along feature and boundary lines stay.
-/// \param points   of the input
-/// \param between  [V] 1: of what may change; empty: all may
+/// \param points      of the input
+/// \param may_change  [V] 1: of faces that may; empty: all may
 void pair_odd_cells_within(ToleranceProof& proof, const SurfacePoints& points,
-                           const std::vector<char>& between, QuadMesh& quads);
+                           const std::vector<char>& may_change, QuadMesh& quads);
 
 /// Makes triangles of the cells that others could cut otherwise (ToleranceProof::cells_in_doubt):
 /// those by which it was proven. A cell stays where an edge of theirs would be double.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -84,6 +85,7 @@ std::vector<std::array<Index, 3>> halves(const PolyMesh& mesh, Index f, const Po
 Replacements turned_edges(const PolyMesh& mesh, bool cuts_quads) {
   const PolyEdges edges = collect_edges(mesh);
   Replacements instead;
+  std::set<std::array<Index, 2>> turned;
   for (Index f = 0; f < mesh.face_count(); ++f) {
     const std::span<const Index> face = mesh.face(f);
     if (face.size() > 4 || instead.contains(f) || !is_flat(mesh.positions, face)) continue;
@@ -108,7 +110,7 @@ Replacements turned_edges(const PolyMesh& mesh, bool cuts_quads) {
     if (!adds_no_double_edge(mesh.face(beyond), triangles, edges)) continue;
     const Index c = *std::ranges::find_if(*beside, [&](Index v) { return v != a && v != b; });
     const std::array<Index, 2> edge = {std::min(c, m), std::max(c, m)};
-    if (std::ranges::binary_search(edges.vertices, edge)) continue;
+    if (std::ranges::binary_search(edges.vertices, edge) || !turned.insert(edge).second) continue;
     *beside = {m, a, c};
     triangles.push_back({m, c, b});
     instead[f] = {};

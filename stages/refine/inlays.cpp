@@ -113,9 +113,9 @@ class Inlays {
     return !bad.any();
   }
 
-  /// Gives up the inlays that have faults, unless they leave fewer faces that cross than there are
-  /// without them. \param before  faces that cross then
-  void drop_bad(std::size_t before) {
+  /// Gives up the inlays that have faults, unless all together leave fewer faces that cross, and
+  /// none beyond the tolerance. \param before  faces that cross without any
+  void drop_bad_unless_fewer_cross(std::size_t before) {
     const std::vector<Site> all = sites_;
     drop_bad();
     const auto crossing = [&] { return crossing_.faces_of(with_inlays().quads.mesh).size(); };
@@ -151,7 +151,7 @@ class Inlays {
   }
 
   /// Takes vertices out of inlays, fewer around faces that are beyond the tolerance or cross others
-  /// then; of what is within it, that is taken of which the fewest cross. \pre they have no faults
+  /// then; of what is within it, that is taken of which the fewest cross. \pre none is beyond it
   /// \param distance  by which to thin out, at most the tolerance
   void thin(double distance) {
     std::vector<Thinning> thinnings;
@@ -454,7 +454,7 @@ std::vector<char> inlay_crossing(ToleranceProof& proof, CrossingPlaces& crossing
   const std::vector<Index> cells = crossing.faces_of(quads.mesh);
   if (cells.empty() || cells.size() > kMostBad) return {};
   Inlays inlays(proof, quads, crossing, kUncrossed);
-  if (!inlays.grow(cells)) inlays.drop_bad(cells.size());
+  if (!inlays.grow(cells)) inlays.drop_bad_unless_fewer_cross(cells.size());
   inlays.thin(thinned_by);
   inlays.drop_large();
   Inlaid result = inlays.result();

@@ -22,7 +22,10 @@ constexpr std::size_t kLeastFaces = 4;
 class Merging {
  public:
   explicit Merging(const PolyMesh& mesh)
-      : mesh_(mesh), faces_of_(mesh.positions.size()), is_rim_(mesh.positions.size(), 0) {
+      : mesh_(mesh),
+        faces_of_(mesh.positions.size()),
+        is_rim_(mesh.positions.size(), 0),
+        is_near_(mesh.positions.size(), 0) {
     for (Index f = 0; f < mesh.face_count(); ++f) {
       for (const Index v : mesh.face(f)) faces_of_[v].push_back(f);
     }
@@ -33,18 +36,18 @@ class Merging {
     }
   }
 
-  /// [V] the vertex that takes the place of each: itself for most.
+  /// [V] the vertex that takes the place of each: itself for most, else an older one, which has
+  /// the lines that it was made from.
   std::vector<Index> merged() {
     std::vector<Index> instead(mesh_.positions.size());
     std::iota(instead.begin(), instead.end(), 0);
-    std::vector<char> is_near(instead.size(), 0);  // one that was merged, so edges are others
     for (Index f = 0; f < mesh_.face_count(); ++f) {
       for (const auto& [u, w] : in_one_place(f)) {
-        if (is_near[u] != 0 || is_near[w] != 0 || !may_merge(u, w)) continue;
-        instead[w] = u;
+        if (!may_merge(u, w)) continue;
+        instead[std::max(u, w)] = std::min(u, w);
         for (const Index v : {u, w}) {
-          is_near[v] = 1;
-          for (const Index n : neighbours(v)) is_near[n] = 1;
+          is_near_[v] = 1;
+          for (const Index n : neighbours(v)) is_near_[n] = 1;
         }
       }
     }
@@ -86,7 +89,7 @@ class Merging {
 
   /// The link condition: what both have in common is only what goes with the faces between them.
   [[nodiscard]] bool may_merge(Index u, Index w) const {
-    if (is_rim_[u] != 0 || is_rim_[w] != 0) return false;
+    if (is_rim_[u] != 0 || is_rim_[w] != 0 || is_near_[u] != 0 || is_near_[w] != 0) return false;
     const std::vector<Index> of_u = neighbours(u);
     const std::vector<Index> of_w = neighbours(w);
     const bool are_joined = std::ranges::binary_search(of_u, w);
@@ -105,7 +108,9 @@ class Merging {
       }
     }
     std::ranges::sort(go_between);
-    const auto has_enough = [&](Index v) { return faces_of_[v].size() >= kLeastFaces; };
+    const auto has_enough = [&](Index v) {
+      return is_near_[v] == 0 && faces_of_[v].size() >= kLeastFaces;
+    };
     return between == (are_joined ? 2U : 1U) && in_common == go_between &&
            std::ranges::all_of(go_between, has_enough);
   }
@@ -113,6 +118,7 @@ class Merging {
   const PolyMesh& mesh_;
   std::vector<std::vector<Index>> faces_of_;  ///< [V]
   std::vector<char> is_rim_;                  ///< [V] 1: on the boundary
+  std::vector<char> is_near_;  ///< [V] 1: merged, or beside one that is, so its faces are others
 };
 
 /// A face without repeated corners; nothing where it is folded onto itself.

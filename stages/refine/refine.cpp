@@ -27,7 +27,6 @@
 #include "stages/refine/split_cells.h"
 #include "stages/refine/surface_cells.h"
 #include "stages/refine/surface_points.h"
-#include "stages/refine/uncross.h"
 
 namespace strake {
 namespace {
@@ -100,9 +99,6 @@ class Refinement {
       moved[v] = 1;
     }
   }
-
-  /// Takes the input's own faces where faces cross. \return number of faces that no longer do
-  Index uncross() { return strake::uncross(mesh_, points_, crossing_, quads_); }
 
   /// Changes what may be better in a result that is within the tolerance.
   void finish(ToleranceProof& proof) {
@@ -413,9 +409,6 @@ RefineResult refine_cells(const TriMesh& mesh, const QuadMesh& quads, const Refi
     rounds = refine_to_tolerance(mesh, refinement, options, observer, result.report);
   } else if (options.vertices) {
     rounds = refine_to_count(mesh, refinement, options, observer);
-  }
-  if (options.uncross && !options.tolerance) {
-    result.report.set("refine.uncrossed_faces", std::int64_t{refinement.uncross()});
   }
   result.quads = refinement.quads();
   if (const PolyTopology topology = analyse(result.quads.mesh); !topology.is_oriented_manifold()) {

@@ -14,8 +14,7 @@ struct RefineOptions {
   std::optional<Length> tolerance;       ///< divide cells that are farther from the surface
   std::optional<std::int64_t> vertices;  ///< divide the worst cells until there are as many
   std::int64_t rounds = 16;
-  bool uncross = false;  ///< without a tolerance, too, take faces of the input where faces cross
-  bool partly = false;   ///< hand on a result that is not within the tolerance yet
+  bool partly = false;  ///< hand on a result that is not within the tolerance yet
 
   OptionList declare();
 };
@@ -33,8 +32,7 @@ struct RefineResult {
 /// again until all cells are within the tolerance by `check_tolerance`, which no place escapes; or
 /// until the wanted number of vertices is reached. Where dividing does not reach a tolerance faces
 /// of the input take the place of cells (inlays.h). Faces that cross once it is reached are made
-/// anew (refill_crossing.h), or likewise replaced, where it allows that; without a tolerance the
-/// latter if `uncross` is set.
+/// anew (refill_crossing.h), or likewise replaced, where it allows that.
 /// \pre `quads` was made from `mesh`
 /// \return the same surface topology; deterministic for any thread count
 /// \throw ToleranceError naming places where the tolerance is not reached, unless `partly` is set

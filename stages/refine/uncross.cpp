@@ -1,13 +1,21 @@
 #include "stages/refine/uncross.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
+#include "common/core/error.h"
+#include "common/geometry/carry_attributes.h"
 #include "common/geometry/cell_error/cell_error.h"
 #include "common/geometry/cell_error/tolerance_check.h"
+#include "common/geometry/face_crossings/crossing_places.h"
+#include "common/geometry/poly_topology/face_shape.h"
+#include "common/geometry/poly_topology/poly_topology.h"
 #include "stages/refine/changes_within.h"
 #include "stages/refine/inlays.h"
+#include "stages/refine/surface_points.h"
 
 namespace strake {
 namespace {
@@ -17,27 +25,51 @@ constexpr CellSampling kSampling = {.rows = 2, .input_step = 1};
 /// Distance by which inlays are thinned out, in root mean squares of the result's.
 constexpr double kThinnedBy = 2;
 
-}  // namespace
-
-Index uncross(const TriMesh& mesh, const SurfacePoints& points, CrossingPlaces& crossing,
-              QuadMesh& quads) {
-  const std::size_t before = crossing.faces_of(quads.mesh).size();
-  if (before == 0) return 0;
+/// The result with inlays; as it is where there are none.
+QuadMesh with_inlays(const TriMesh& mesh, const QuadMesh& quads, CrossingPlaces& crossing) {
   const auto input = std::make_shared<const InputSurface>(mesh);
   const ComparedSurfaces surfaces(input, quads);
   const ErrorMap errors = measure_cells(surfaces, kSampling);
-  if (!(errors.rms > 0)) return 0;
+  if (!(errors.rms > 0)) return quads;
   ToleranceProof proof(input, errors.largest);
   proof.assume(surfaces);
   QuadMesh inlaid = quads;
-  const std::vector<char> is_new =
+  inlaid.mesh.attributes = {};  // carried over anew at the end
+  const std::vector<char> is_of_inlay =
       inlay_crossing(proof, crossing, std::min(proof.tolerance(), kThinnedBy * errors.rms), inlaid);
-  if (is_new.empty()) return 0;
-  pair_odd_cells_within(proof, points, is_new, inlaid);
-  const std::size_t after = crossing.faces_of(inlaid.mesh).size();
-  if (after >= before) return 0;
-  quads = std::move(inlaid);
-  return static_cast<Index>(before - after);
+  if (is_of_inlay.empty()) return quads;
+  pair_odd_cells_within(proof, SurfacePoints(mesh), is_of_inlay, inlaid);
+  return inlaid;
+}
+
+}  // namespace
+
+UncrossResult uncross_faces(const TriMesh& mesh, const QuadMesh& quads, Observer& observer) {
+  UncrossResult result{quads, {}};
+  CrossingPlaces crossing(mesh);
+  const std::size_t before = crossing.faces_of(quads.mesh).size();
+  std::size_t after = before;
+  if (before > 0) {
+    observer.report("replacing faces that cross", 0);
+    QuadMesh inlaid = with_inlays(mesh, quads, crossing);
+    after = crossing.faces_of(inlaid.mesh).size();
+    if (after < before) result.quads = std::move(inlaid);
+  }
+  if (after < before) {
+    PolyMesh& made = result.quads.mesh;
+    if (const PolyTopology topology = analyse(made); !topology.is_oriented_manifold()) {
+      throw AlgorithmError("the result with faces of the input is no oriented manifold: " +
+                           topology.defects() + "; please report this model");
+    }
+    begin_faces_at_fans(made);
+    made.attributes = carry_attributes(mesh, made, result.quads.provenance);
+  }
+  result.report.set("refine.uncrossed_faces",
+                    static_cast<std::int64_t>(before - std::min(before, after)));
+  result.report.set(
+      "refine.inlaid_vertices",
+      static_cast<std::int64_t>(result.quads.mesh.vertex_count() - quads.mesh.vertex_count()));
+  return result;
 }
 
 }  // namespace strake

@@ -1,19 +1,25 @@
 #pragma once
 
+#include "common/core/observer.h"
 #include "common/core/poly_mesh.h"
+#include "common/core/report.h"
 #include "common/core/tri_mesh.h"
-#include "common/geometry/face_crossings/crossing_places.h"
-#include "stages/refine/surface_points.h"
 
 namespace strake {
 
+struct UncrossResult {
+  QuadMesh quads;
+  Report report;
+};
+
 /// Where faces of a result cross although the input does not, takes the input's own faces
-/// (inlays.h) and makes quads of pairs of them. Nothing new is farther from the surface than the
-/// farthest place that is sampled of the result. \param mesh, points  the input; `quads` was made
-/// from it \return number of faces that cross no more; 0: `quads` is as it was. \post the same
-/// topology;
-///         attributes are not carried over
-Index uncross(const TriMesh& mesh, const SurfacePoints& points, CrossingPlaces& crossing,
-              QuadMesh& quads);
+/// (inlays.h), thinned out, and makes quads of pairs of them. Beyond [MK04].
+///
+/// Nothing new is farther from the surface than the farthest place that is sampled of the result.
+/// Where nothing helps the result stays as it is.
+/// \pre `quads` was made from `mesh`
+/// \return the same surface topology, and fewer faces that cross if anything was changed;
+///         deterministic for any thread count
+UncrossResult uncross_faces(const TriMesh& mesh, const QuadMesh& quads, Observer& observer);
 
 }  // namespace strake

@@ -16,6 +16,7 @@
 #include "stages/mesh/stage.h"
 #include "stages/prolong/stage.h"
 #include "stages/refine/stage.h"
+#include "stages/refine/uncross/stage.h"
 #include "stages/size/stage.h"
 #include "stages/smooth/stage.h"
 #include "stages/tensor/stage.h"
@@ -53,6 +54,7 @@ Chain::Chain()
       fit(fit_stage()),
       size(size_stage()),
       refine(refine_stage()),
+      uncross(refine_uncross_stage()),
       decimate(decimate_stage()),
       evaluate(evaluate_stage()) {}
 
@@ -81,8 +83,8 @@ OptionList Chain::declare(std::optional<std::int64_t>& rounds, bool& lines_only,
 }
 
 std::vector<const Stage*> Chain::stages() const {
-  return {&import,  &coarsen, &tensor, &smooth, &trace,    &mesh,    &lift,
-          &prolong, &fit,     &size,   &refine, &decimate, &evaluate};
+  return {&import,  &coarsen, &tensor, &smooth, &trace,   &mesh,     &lift,
+          &prolong, &fit,     &size,   &refine, &uncross, &decimate, &evaluate};
 }
 
 void Chain::check_goals() const {
@@ -97,7 +99,7 @@ void Chain::check_goals() const {
 
 std::string Chain::reach_goal(Session& session) const {
   const GoalStages goal_stages{coarsen, tensor, smooth, trace,  mesh,    lift,
-                               prolong, fit,    size,   refine, decimate};
+                               prolong, fit,    size,   refine, uncross, decimate};
   for (const Counted counted : {Counted::vertices, Counted::faces}) {
     const char* name = counted == Counted::vertices ? "vertices" : "faces";
     const std::string wanted = trace.option(name).value();

@@ -25,6 +25,7 @@ struct Chain {
   Stage fit;
   Stage size;
   Stage refine;
+  Stage uncross;
   Stage decimate;
   Stage evaluate;
 

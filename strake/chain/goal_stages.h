@@ -16,6 +16,7 @@ struct GoalStages {
   Stage fit;
   Stage size;
   Stage refine;
+  Stage uncross;
   Stage decimate;
 };
 

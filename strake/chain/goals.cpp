@@ -61,7 +61,7 @@ constexpr double kCloser = 0.6;
 constexpr int kPatience = 5;
 constexpr int kPatienceWithinTolerance = 2;
 /// Faces that cross, up to which the input's own are tried in their place for a count.
-constexpr std::size_t kMostUncrossed = 1000;
+constexpr std::size_t kMostReplaced = 1000;
 /// Vertices of a result within a tolerance, over those of the input, of which the user is told.
 constexpr Index kExcessive = 2;
 /// Share of the distances of lines around faces that cross.
@@ -357,28 +357,22 @@ std::int64_t to_add(std::int64_t given, const LineAim& aim) {
   return std::llround(std::max(std::min(wanted, most) - have, aim.left / 2 * wanted));
 }
 
-/// The stage that replaces faces of a fitted result that cross.
-Stage uncross_stage(const GoalStages& stages) {
-  Stage uncross = stages.refine;
-  uncross.output.name = "uncrossed";
-  return uncross;
-}
-
 /// Takes the input's own faces where faces cross, as long as the count allows it.
 /// \return places where faces still cross \pre fitted
-std::vector<Vec3> uncross(Session& session, const GoalStages& stages, const LineAim& aim,
-                          CrossingPlaces& crossing) {
+std::vector<Vec3> replace_crossing(Session& session, const GoalStages& stages, const LineAim& aim,
+                                   CrossingPlaces& crossing) {
   std::vector<Vec3> places = crossing.of(session.get<QuadMesh>("fitted").mesh);
-  if (places.empty() || places.size() > kMostUncrossed || only_quads(stages)) return places;
+  if (places.empty() || places.size() > kMostReplaced || only_quads(stages)) return places;
   Session tried = session;
-  const Option& is_wanted = stages.refine.option("refine-uncross");
-  stages.refine.option("refine-vertices").parse_into("");
-  is_wanted.parse_into("true");
-  tried.run(uncross_stage(stages));
-  is_wanted.parse_into("false");
+  try {
+    tried.run(stages.uncross);
+  } catch (const AlgorithmError& error) {
+    session.say(std::string("warning: kept faces that cross: ") + error.what());
+    return places;
+  }
+  std::vector<Vec3> left = crossing.of(tried.get<QuadMesh>("uncrossed").mesh);
   const double miss = aim.miss(count_of(tried, "uncrossed", aim.counted));
   const double before = aim.miss(count_of(session, "fitted", aim.counted));
-  std::vector<Vec3> left = crossing.of(tried.get<QuadMesh>("uncrossed").mesh);
   if (left.size() >= places.size() || miss > std::max(before, kCountTolerance)) return places;
   session = tried;
   return left;
@@ -405,7 +399,7 @@ Attempt fit_to_count(Session session, const GoalStages& stages, const LineAim& a
     session.run(stages.fit);
   }
   session.keep(stages.fit);
-  std::vector<Vec3> places = uncross(session, stages, aim, crossing);
+  std::vector<Vec3> places = replace_crossing(session, stages, aim, crossing);
   return {meshed, session, std::move(places)};
 }
 
@@ -471,15 +465,19 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
   const LineAim aim = aim_of(session, stages, counted, wanted);
   trace_to_count(coarser ? *coarser : session, stages, aim, feedback_rounds);
   if (coarser) {
+    if (coarser->has("uncrossed")) coarser->keep(stages.uncross);
     take_from_coarser_mesh(session, std::move(*coarser), stages);
     CrossingPlaces crossing(session.get<TriMesh>("mesh"));
-    uncross(session, stages, aim, crossing);
+    replace_crossing(session, stages, aim, crossing);
   }
   // What a user says of directions and of lines decimation knows nothing of.
   const bool needs_lines =
       lines_only || only_quads(stages) || session.has("density") || session.has("guides");
-  if (!needs_lines) decimate_if_too_coarse(session, stages, counted, wanted);
-  if (session.has("uncrossed")) session.keep(uncross_stage(stages));
+  if (!needs_lines && decimate_if_too_coarse(session, stages, counted, wanted)) {
+    CrossingPlaces crossing(session.get<TriMesh>("mesh"));
+    replace_crossing(session, stages, aim, crossing);
+  }
+  if (session.has("uncrossed")) session.keep(stages.uncross);
   const char* port = result_port(session);
   const std::int64_t reached = count_of(session, port, counted);
   const double miss = aim.miss(reached);

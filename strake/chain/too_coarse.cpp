@@ -107,13 +107,13 @@ void decimate_to_count(Session& session, const GoalStages& stages, const Goal& g
 
 }  // namespace
 
-void decimate_if_too_coarse(Session& session, const GoalStages& stages, Counted counted,
+bool decimate_if_too_coarse(Session& session, const GoalStages& stages, Counted counted,
                             std::int64_t wanted) {
   const Goal goal{counted, wanted};
   const Faults first = faults_of(session, goal, kFirstSamples);
-  if (first.distance < kFarFromSuspect * kSuspect && !is_too_coarse(first)) return;
+  if (first.distance < kFarFromSuspect * kSuspect && !is_too_coarse(first)) return false;
   const Faults faults = faults_of(session, goal);
-  if (!is_too_coarse(faults)) return;
+  if (!is_too_coarse(faults)) return false;
   session.say(fmt::format("lines are coarse for this shape at {} {}; decimating to compare", wanted,
                           name_of(counted)));
   Session other = session;
@@ -124,9 +124,9 @@ void decimate_if_too_coarse(Session& session, const GoalStages& stages, Counted 
     other.run(stages.fit);
   } catch (const AlgorithmError& error) {
     session.say(std::string("warning: kept the lines: ") + error.what());
-    return;
+    return false;
   }
-  if (!is_much_better(faults_of(other, goal), faults)) return;
+  if (!is_much_better(faults_of(other, goal), faults)) return false;
   session = other;
   session.keep(stages.decimate);
   session.keep(stages.fit);
@@ -134,6 +134,7 @@ void decimate_if_too_coarse(Session& session, const GoalStages& stages, Counted 
       "warning: lines are too coarse for this shape at {} {}: the result was decimated instead, "
       "and has more triangles; ask for more, or give --lines-only",
       wanted, name_of(counted)));
+  return true;
 }
 
 }  // namespace strake

@@ -22,9 +22,9 @@ struct Found {
   ArtifactInfo info;
 };
 
-const std::vector<std::string> kStageOrder = {"import", "coarsen", "tensor",  "smooth",  "size",
-                                              "trace",  "mesh",    "lift",    "prolong", "decimate",
-                                              "fit",    "refine",  "evaluate"};
+const std::vector<std::string> kStageOrder = {
+    "import", "coarsen", "tensor",   "smooth", "size",   "trace",          "mesh",
+    "lift",   "prolong", "decimate", "fit",    "refine", "refine-uncross", "evaluate"};
 
 std::ptrdiff_t stage_place(const std::string& stage) {
   return std::find(kStageOrder.begin(), kStageOrder.end(), stage) - kStageOrder.begin();

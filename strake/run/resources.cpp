@@ -58,7 +58,7 @@ Resources default_resources(std::string_view program) {
   if (program == "mesh") return needs(1500, 100);
   if (program == "fit") return needs(1200, 60);
   if (program == "size") return needs(600, 60);
-  if (program == "refine") return needs(800, 400);
+  if (program == "refine" || program == "refine-uncross") return needs(800, 400);
   if (program == "decimate") return needs(900, 60);
   if (program == "evaluate") return needs(1200, 50);
   return needs(1500, 400);

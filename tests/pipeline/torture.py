@@ -277,7 +277,8 @@ def stage_commands(folder):
         "smooth import.hdf tensor.hdf OUT.hdf", "trace import.hdf smooth.hdf OUT.hdf --vertices 8000",
         "mesh import.hdf trace.hdf OUT.hdf", "fit import.hdf mesh.hdf OUT.hdf --field smooth.hdf",
         "size import.hdf smooth.hdf trace.hdf fit.hdf OUT.hdf",
-        "refine import.hdf fit.hdf OUT.hdf --refine-tolerance 0.03%", "export fit.hdf OUT.obj",
+        "refine import.hdf fit.hdf OUT.hdf --refine-tolerance 0.03%", "refine-uncross import.hdf fit.hdf OUT.hdf",
+        "export fit.hdf OUT.obj",
         "evaluate import.hdf fit.hdf OUT.json --samples 1000000"]
     for command in commands:
         stage, *words = command.split()

@@ -303,25 +303,42 @@ void ToleranceProof::carry_over(const SurfaceDistance& result) {
 
 void ToleranceProof::assume(const ComparedSurfaces& surfaces) {
   const TriMesh& mesh = input_->mesh;
-  std::vector<Index> nearest(mesh.positions.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, nearest.size()), [&](const auto& range) {
-    Index last = kNone;
-    for (std::size_t v = range.begin(); v < range.end(); ++v) {
-      last = surfaces.result().closest_near(mesh.positions[v], last).triangle;
-      nearest[v] = last;
-    }
-  });
+  assumed_near_.resize(mesh.positions.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, assumed_near_.size()),
+                    [&](const auto& range) {
+                      Index last = kNone;
+                      for (std::size_t v = range.begin(); v < range.end(); ++v) {
+                        last = surfaces.result().closest_near(mesh.positions[v], last).triangle;
+                        assumed_near_[v] = last;
+                      }
+                    });
   carry_over(surfaces.result());
-  std::ranges::fill(is_proven_, 1);
-  others_near_.clear();
+  assumed_number_ = number_;
+}
+
+/// What is there of the assumed result is proven, and near to what it was near to.
+void ToleranceProof::take_what_is_assumed() {
+  if (assumed_near_.empty()) return;
+  std::vector<Index> now(assumed_number_.size(), kNone);
+  for (const auto& [places, before] : assumed_number_) {
+    const auto found = number_.find(places);
+    if (found == number_.end() || static_cast<std::size_t>(before) >= now.size()) continue;
+    now[before] = found->second;
+    is_proven_[found->second] = 1;
+  }
+  const auto near_to = [&](Index v) {
+    const auto before = static_cast<std::size_t>(assumed_near_[v]);
+    return before < now.size() ? now[before] : kNone;
+  };
   for (std::size_t f = 0; f < near_.size(); ++f) {
-    const auto& [a, b, c] = mesh.faces[f];
-    near_[f] = nearest[a];
-    std::vector<Index> others;
-    for (const Index v : {b, c}) {
-      if (nearest[v] != nearest[a]) others.push_back(nearest[v]);
+    if (near_[f] != kNone) continue;
+    const auto& [a, b, c] = input_->mesh.faces[f];
+    const std::array<Index, 3> near = {near_to(a), near_to(b), near_to(c)};
+    if (std::ranges::find(near, kNone) != near.end()) continue;
+    near_[f] = near[0];
+    if (near[1] != near[0] || near[2] != near[0]) {
+      others_near_[static_cast<Index>(f)] = {near[1], near[2]};
     }
-    if (!others.empty()) others_near_[static_cast<Index>(f)] = std::move(others);
   }
 }
 
@@ -333,6 +350,7 @@ std::vector<Excess> ToleranceProof::check(const ComparedSurfaces& surfaces) {
 std::vector<Excess> ToleranceProof::check(const SurfaceDistance& result,
                                           const std::vector<Index>& cell) {
   carry_over(result);
+  take_what_is_assumed();
   std::vector<char> is_near(near_.size());
   for (std::size_t f = 0; f < is_near.size(); ++f) is_near[f] = near_[f] != kNone ? 1 : 0;
   const std::vector<Verdict> of_result =

@@ -43,8 +43,8 @@ class ToleranceProof {
   [[nodiscard]] double tolerance() const { return tolerance_; }
 
   /// Takes a result as it is for proven, and what is nearest to the vertices of each face of the
-  /// input for near to all of it: from now on only what other results have instead is checked.
-  /// \pre `surfaces` compares with `input`
+  /// input for near to all of it: from now on only what results have that is not of this one is
+  /// checked. \pre `surfaces` compares with `input`
   void assume(const ComparedSurfaces& surfaces);
 
   /// \return as `check_tolerance`. \pre `surfaces` compares with `input`
@@ -64,6 +64,7 @@ class ToleranceProof {
 
   std::vector<Excess> check(const SurfaceDistance& result, const std::vector<Index>& cell);
   void carry_over(const SurfaceDistance& result);
+  void take_what_is_assumed();
 
   std::shared_ptr<const InputSurface> input_;
   double tolerance_;
@@ -73,6 +74,8 @@ class ToleranceProof {
   std::vector<Index> near_;
   /// Faces that take further ones, with these.
   std::unordered_map<Index, std::vector<Index>> others_near_;
+  std::unordered_map<Triangle, Index, Hash> assumed_number_;  ///< of the assumed result's triangles
+  std::vector<Index> assumed_near_;  ///< [V] such a triangle, nearest to the vertex; or empty
 };
 
 }  // namespace strake

@@ -96,6 +96,7 @@ TEST(Remesh, WithFewVerticesFacesDoNotCross) {
 // The input's own faces are instead of those that cross, which takes less time than all lines anew.
 TEST(Remesh, LinesAreNotTracedAgainForSingleFacesThatCross) {
   const PolyMesh mesh = claws(8, 0.3, 0.06, 0.6, 20000);
+  std::int64_t uncrossed = 0;
   for (const std::int64_t vertices : {500, 600, 900}) {
     RemeshOptions options;
     options.trace.vertices = vertices;
@@ -106,7 +107,13 @@ TEST(Remesh, LinesAreNotTracedAgainForSingleFacesThatCross) {
     EXPECT_EQ(crossings(result.quads.mesh), 0u);
     EXPECT_NEAR(static_cast<double>(result.quads.mesh.vertex_count()),
                 static_cast<double>(vertices), 0.05 * static_cast<double>(vertices));
+    for (const auto& [stage, report] : result.reports) {
+      for (const auto& [name, value] : report.entries()) {
+        if (name == "refine.uncrossed_faces") uncrossed += std::get<std::int64_t>(value);
+      }
+    }
   }
+  EXPECT_GT(uncrossed, 0);
 }
 
 // Crossing faces are not made anew then: that takes triangles.

@@ -111,6 +111,34 @@ TEST(MergePlaces, MakesTrianglesOfQuadsWithASideOfNoLength) {
   EXPECT_EQ(analyse(quads.mesh).euler, 1);
 }
 
+/// Two flat triangles with one vertex of four faces: each could go, both would leave it two faces.
+TEST(MergePlaces, LeavesAVertexItsFacesWhereTwoPairsAreBesideIt) {
+  QuadMesh quads;
+  // 0 in the middle of a ring 1 .. 6, of which 1 and 2 are at one place, and 4 and 5.
+  quads.mesh.positions = {{0, 0, 0},   {1, 1, 0},  {1, 1, 0},  {-1, 1, 0}, {-1, -1, 0},
+                          {-1, -1, 0}, {1, -1, 0}, {3, 2, 0},  {-2, 2, 0}, {-3, -2, 0},
+                          {2, -2, 0},  {2, 3, 0},  {-2, -3, 0}};
+  quads.mesh.add_face(std::array<Index, 3>{0, 1, 2});
+  quads.mesh.add_face(std::array<Index, 4>{0, 2, 3, 4});
+  quads.mesh.add_face(std::array<Index, 3>{0, 4, 5});
+  quads.mesh.add_face(std::array<Index, 4>{0, 5, 6, 1});
+  quads.mesh.add_face(std::array<Index, 4>{2, 1, 7, 11});
+  quads.mesh.add_face(std::array<Index, 4>{2, 11, 8, 3});
+  quads.mesh.add_face(std::array<Index, 4>{3, 8, 9, 4});
+  quads.mesh.add_face(std::array<Index, 4>{4, 9, 12, 5});
+  quads.mesh.add_face(std::array<Index, 4>{5, 12, 10, 6});
+  quads.mesh.add_face(std::array<Index, 4>{6, 10, 7, 1});
+  quads.provenance.face.assign(13, 0);
+  quads.provenance.barycentric.assign(13, {1, 0, 0});
+  quads.provenance.lines.assign(13, {kNone, kNone});
+  ASSERT_TRUE(analyse(quads.mesh).is_oriented_manifold());
+  EXPECT_EQ(merge_places(quads), 1);
+  Index faces = 0;
+  for (const Index v : quads.mesh.corners) faces += v == 0 ? 1 : 0;
+  EXPECT_EQ(faces, 3);
+  EXPECT_TRUE(analyse(quads.mesh).is_oriented_manifold());
+}
+
 /// Beside a slit that begins at the boundary a vertex would be left with two faces.
 TEST(MergePlaces, LeavesVerticesTheirFaces) {
   QuadMesh quads = slit(true);

@@ -15,6 +15,7 @@
 #include "stages/refine/refine.h"
 #include "stages/refine/surface_part.h"
 #include "stages/refine/thinning.h"
+#include "stages/refine/uncross.h"
 #include "tests/support/result_cases.h"
 
 namespace strake {
@@ -458,10 +459,11 @@ TEST(Inlays, MakeFacesThatCrossFewer) {
   EXPECT_TRUE(analyse(quads.mesh).is_oriented_manifold());
   EXPECT_EQ(analyse(quads.mesh).euler, 1);
   ASSERT_EQ(is_of_inlay.size(), quads.mesh.positions.size());
+  EXPECT_GT(std::ranges::count(is_of_inlay, 1), 4);
+  // What is of none is of the result.
   for (std::size_t v = 0; v < is_of_inlay.size(); ++v) {
-    const Vec3& p = quads.mesh.positions[v];
-    const bool is_far = std::max(std::abs(p.x() - 0.5625), std::abs(p.y() - 0.5)) > 0.45;
-    EXPECT_FALSE(is_far && is_of_inlay[v] != 0);
+    if (is_of_inlay[v] != 0) continue;
+    EXPECT_EQ(std::ranges::count(c.quads.mesh.positions, quads.mesh.positions[v]), 1);
   }
 }
 
@@ -469,18 +471,13 @@ TEST(Inlays, MakeFacesThatCrossFewer) {
 TEST(Uncross, ReplacesOnlyWhatCrosses) {
   Case c = crossed();
   c.quads.mesh.positions[9 + 1].z() += 0.1;
-  RefineOptions options;
   SilentObserver observer;
   CrossingPlaces crossing(c.mesh);
-  const auto crossing_in = [&](const QuadMesh& quads) {
-    return crossing.faces_of(quads.mesh).size();
-  };
-  const std::size_t before = crossing_in(refine_cells(c.mesh, c.quads, options, observer).quads);
+  const std::size_t before = crossing.faces_of(c.quads.mesh).size();
   ASSERT_GT(before, 0u);
-  options.uncross = true;
-  const RefineResult result = refine_cells(c.mesh, c.quads, options, observer);
+  const UncrossResult result = uncross_faces(c.mesh, c.quads, observer);
   const PolyMesh& mesh = result.quads.mesh;
-  EXPECT_EQ(crossing_in(result.quads), 0u);
+  EXPECT_EQ(crossing.faces_of(mesh).size(), 0u);
   const auto& entries = result.report.entries();
   const auto uncrossed = std::ranges::find(entries, "refine.uncrossed_faces",
                                            [](const auto& entry) { return entry.first; });
@@ -491,20 +488,25 @@ TEST(Uncross, ReplacesOnlyWhatCrosses) {
   // Cells around the lifted vertex stay, though nothing else is so far from the surface.
   const Vec3& lifted = c.quads.mesh.positions[9 + 1];
   EXPECT_EQ(std::ranges::count(mesh.positions, lifted), 1);
-  const auto is_quad = [&](Index f) { return mesh.face(f).size() == 4; };
-  Index quads = 0;
-  for (Index f = 0; f < mesh.face_count(); ++f) quads += is_quad(f) ? 1 : 0;
-  EXPECT_GT(quads, 64 - 16);
-  EXPECT_LT(mesh.face_count(), 64 + 32);  // thinned out
+  // What is new is thinned out, paired, and no farther than the farthest place was.
+  EXPECT_LT(mesh.vertex_count(), 81 + 24);
+  Index new_quads = 0;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const bool is_new = std::ranges::any_of(mesh.face(f), [&](Index v) {
+      return std::ranges::count(c.quads.mesh.positions, mesh.positions[v]) == 0;
+    });
+    new_quads += is_new && mesh.face(f).size() == 4 ? 1 : 0;
+  }
+  EXPECT_GT(new_quads, 0);
+  EXPECT_TRUE(check_tolerance(ComparedSurfaces(c.mesh, result.quads), 0.11).empty());
 }
 
 TEST(Uncross, LeavesWhatDoesNotCross) {
   const Case c = grid(32, 8, terrain);
-  RefineOptions options;
-  options.uncross = true;
   SilentObserver observer;
-  EXPECT_EQ(refine_cells(c.mesh, c.quads, options, observer).quads.mesh.positions,
-            c.quads.mesh.positions);
+  const QuadMesh quads = uncross_faces(c.mesh, c.quads, observer).quads;
+  EXPECT_EQ(quads.mesh.positions, c.quads.mesh.positions);
+  EXPECT_EQ(quads.mesh.corners, c.quads.mesh.corners);
 }
 
 }  // namespace
