@@ -444,6 +444,21 @@ void trace_to_count(Session& session, const GoalStages& stages, const LineAim& a
   session = part_faces(first, faces, kPatience, again, keep).done;
 }
 
+void warn_of_count(Session& session, const LineAim& aim) {
+  const std::int64_t reached = count_of(session, result_port(session), aim.counted);
+  if (aim.miss(reached) <= kCountTolerance) return;
+  const auto corners = std::ranges::count(session.get<TriMesh>("mesh").is_corner, 1);
+  const bool is_by_corners = aim.counted == Counted::vertices && corners > aim.wanted;
+  session.say(fmt::format(
+      "warning: {} {} were wanted, but the nearest result has {}: {}", aim.wanted,
+      name_of(aim.counted), reached,
+      is_by_corners
+          ? fmt::format("{} corners of feature and boundary lines stay; a larger --feature-angle "
+                        "keeps fewer",
+                        corners)
+          : "the shape, --max-spacing or the mesh's own resolution do not allow it"));
+}
+
 /// A mesh coarser than the tolerance is taken for the polyhedron it is, edge by edge.
 void warn_of_excess(Session& session) {
   const Index given = session.get<TriMesh>("mesh").vertex_count();
@@ -478,16 +493,8 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
     replace_crossing(session, stages, aim, crossing);
   }
   if (session.has("uncrossed")) session.keep(stages.uncross);
-  const char* port = result_port(session);
-  const std::int64_t reached = count_of(session, port, counted);
-  const double miss = aim.miss(reached);
-  if (miss > kCountTolerance) {
-    session.say(fmt::format(
-        "warning: {} {} were wanted, but the nearest result has {}: the shape, --max-spacing or "
-        "the mesh's own resolution do not allow it",
-        wanted, name_of(counted), reached));
-  }
-  return port;
+  warn_of_count(session, aim);
+  return result_port(session);
 }
 
 std::string follow_spacing(Session& session, const GoalStages& stages) {

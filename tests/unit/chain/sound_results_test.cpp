@@ -223,6 +223,24 @@ TEST(Remesh, SaysThatFacesCross) {
   EXPECT_EQ(nothing.find(kWarning), std::string::npos) << nothing;
 }
 
+// A torus with so small an angle that all of its edges are features.
+TEST(Remesh, SaysThatCornersStay) {
+  SampleOptions sample;
+  sample.faces = 500;
+  RemeshOptions options;
+  options.trace.vertices = 60;
+  options.measure = false;
+  const auto said_at = [&](double angle) {
+    Listener listener;
+    options.import.feature_angle_deg = angle;
+    remesh({make_sample(SampleKind::torus, sample), {}, {}, {}}, options, listener);
+    return listener.said;
+  };
+  EXPECT_NE(said_at(2).find("a larger --feature-angle keeps fewer"), std::string::npos)
+      << said_at(2);
+  EXPECT_EQ(said_at(180).find("a larger --feature-angle keeps fewer"), std::string::npos);
+}
+
 // Within a tolerance that its own faces are coarse against a mesh is a polyhedron with many edges.
 TEST(Remesh, SaysWhereAToleranceTakesFarMoreVerticesThanTheInputHas) {
   const auto said_with = [](std::int64_t faces) {
