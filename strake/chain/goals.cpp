@@ -16,14 +16,14 @@
 #include "strake/chain/attempt.h"
 #include "strake/chain/count_search.h"
 #include "strake/chain/density_match.h"
+#include "strake/chain/line_aim.h"
+#include "strake/chain/replace_crossing.h"
 #include "strake/chain/too_coarse.h"
 #include "strake/chain/working_mesh.h"
 
 namespace strake {
 namespace {
 
-/// Error of a wanted count above which the user is told.
-constexpr double kCountTolerance = 0.05;
 constexpr std::int64_t kFeedbackRounds = 1;
 /// Vertices that lines give at distances that follow errors, over those at even ones where as many
 /// are expected. The mean of 34 models and counts; it saves a trial in every other run.
@@ -60,8 +60,6 @@ constexpr double kCloser = 0.6;
 /// tried for them before.
 constexpr int kPatience = 5;
 constexpr int kPatienceWithinTolerance = 2;
-/// Faces that cross, up to which the input's own are tried in their place for a count.
-constexpr std::size_t kMostReplaced = 1000;
 /// Vertices of a result within a tolerance, over those of the input, of which the user is told.
 constexpr Index kExcessive = 2;
 /// Share of the distances of lines around faces that cross.
@@ -71,19 +69,6 @@ constexpr double kCloserWhereCrossing = 0.7;
 constexpr const char* kScaleOfLines = "1";
 /// Rounds of fitting before the worst cells are divided: enough to see where errors will stay.
 constexpr int kRoundsBeforeDividing = 3;
-
-/// How many vertices or faces lines are to give.
-struct LineAim {
-  Counted counted;
-  std::int64_t count;
-  std::int64_t wanted;  ///< by the user, of lines and of the cells that are divided
-  double left;          ///< share of what is wanted that lines leave for dividing cells
-
-  /// Share of the wanted count that another one is off by.
-  [[nodiscard]] double miss(std::int64_t reached) const {
-    return std::abs(static_cast<double>(reached - wanted)) / static_cast<double>(wanted);
-  }
-};
 
 void trace_and_mesh(Session& session, const GoalStages& stages) {
   // Earlier results make room for those that take their place.
@@ -197,11 +182,6 @@ void follow_density(Session& session, const GoalStages& stages, const DensityMat
     feed_back(session, stages, aim);
   }
   best.take(session);
-}
-
-/// Whether every face must stay a quad, so that cells cannot be divided one by one.
-bool only_quads(const GoalStages& stages) {
-  return stages.mesh.option("pure-quads").value() == "true";
 }
 
 /// Whether cells may be divided where errors are largest: a density says where vertices go, not the
@@ -355,27 +335,6 @@ std::int64_t to_add(std::int64_t given, const LineAim& aim) {
   const double nearly = (1 - 0.8 * kCountTolerance) * wanted;
   const double most = std::max((1 + kMostDivided) * have, nearly);
   return std::llround(std::max(std::min(wanted, most) - have, aim.left / 2 * wanted));
-}
-
-/// Takes the input's own faces where faces cross, as long as the count allows it.
-/// \return places where faces still cross \pre fitted
-std::vector<Vec3> replace_crossing(Session& session, const GoalStages& stages, const LineAim& aim,
-                                   CrossingPlaces& crossing) {
-  std::vector<Vec3> places = crossing.of(session.get<QuadMesh>("fitted").mesh);
-  if (places.empty() || places.size() > kMostReplaced || only_quads(stages)) return places;
-  Session tried = session;
-  try {
-    tried.run(stages.uncross);
-  } catch (const AlgorithmError& error) {
-    session.say(std::string("warning: kept faces that cross: ") + error.what());
-    return places;
-  }
-  std::vector<Vec3> left = crossing.of(tried.get<QuadMesh>("uncrossed").mesh);
-  const double miss = aim.miss(count_of(tried, "uncrossed", aim.counted));
-  const double before = aim.miss(count_of(session, "fitted", aim.counted));
-  if (left.size() >= places.size() || miss > std::max(before, kCountTolerance)) return places;
-  session = tried;
-  return left;
 }
 
 /// Divides the worst cells for what is missing of the count, fits vertices and parts faces that

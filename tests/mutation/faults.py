@@ -351,7 +351,7 @@ FAULTS = [
           "if (assumed_near_.empty()) return;", "if (assumed_near_.empty() || near_.front() == kNone || !number_.empty()) return;",
           "test_refine", "^ToleranceProof"),
     Fault("faces that cross for a count are left to lines",
-          "strake/chain/goals.cpp",
+          "strake/chain/replace_crossing.cpp",
           "places.size() > kMostReplaced ||", "places.size() < kMostReplaced ||",
           "test_chain", "^Remesh.LinesAreNot"),
     Fault("nobody is told of faces that cross",

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "strake/chain/counted.h"
+
+namespace strake {
+
+/// Error of a wanted count above which the user is told.
+inline constexpr double kCountTolerance = 0.05;
+
+/// How many vertices or faces lines are to give.
+struct LineAim {
+  Counted counted;
+  std::int64_t count;
+  std::int64_t wanted;  ///< by the user, of lines and of the cells that are divided
+  double left;          ///< share of what is wanted that lines leave for dividing cells
+
+  /// Share of the wanted count that another one is off by.
+  [[nodiscard]] double miss(std::int64_t reached) const {
+    return std::abs(static_cast<double>(reached - wanted)) / static_cast<double>(wanted);
+  }
+};
+
+}  // namespace strake
