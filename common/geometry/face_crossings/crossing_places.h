@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -22,12 +24,22 @@ class CrossingPlaces {
   std::vector<Vec3> of(const PolyMesh& result);
 
  private:
-  /// Whether the input crosses itself nearer to a place than `reach`.
-  bool is_crossed_by_itself(const Vec3& place, double reach);
+  /// A ball around a face of a result, relative to the input's origin.
+  struct Place {
+    Vec3 middle;
+    double reach = 0;  ///< of its corners
+  };
+
+  [[nodiscard]] Place place_of(const PolyMesh& result, Index face) const;
+  /// Finds out which faces of the input near these places cross others.
+  void look_around(const std::vector<Place>& places);
+  /// Whether the input crosses itself within reach of a place that was looked around.
+  [[nodiscard]] bool is_crossed_by_itself(const Place& place) const;
 
   const TriMesh& mesh_;
-  bool is_known_ = false;                       ///< whether `own_` is
-  std::vector<std::array<Index, 3>> crossing_;  ///< the faces of the input that cross
+  int looks_ = 0;
+  std::vector<std::uint8_t> is_seen_;           ///< [F] of the input: whether it crosses is known
+  std::vector<std::array<Index, 3>> crossing_;  ///< those seen that cross, and what they cross
   std::unique_ptr<SurfaceDistance> own_;        ///< of those; nullptr: none
 };
 
