@@ -7,6 +7,7 @@
 
 #include "common/core/poly_mesh.h"
 #include "common/core/tri_mesh.h"
+#include "common/geometry/face_crossings/box_tree.h"
 #include "common/geometry/surface_distance/surface_distance.h"
 
 namespace strake {
@@ -30,14 +31,21 @@ class CrossingPlaces {
     double reach = 0;  ///< of its corners
   };
 
+  /// Boxes that were looked into at the same time.
+  struct Look {
+    std::vector<BoxTree::Box> boxes;
+    BoxTree tree;
+  };
+
   [[nodiscard]] Place place_of(const PolyMesh& result, Index face) const;
-  /// Finds out which faces of the input near these places cross others.
+  [[nodiscard]] bool is_looked_at(const Place& place) const;
+  /// Finds out which faces of the input within reach of these places cross others.
   void look_around(const std::vector<Place>& places);
   /// Whether the input crosses itself within reach of a place that was looked around.
   [[nodiscard]] bool is_crossed_by_itself(const Place& place) const;
 
   const TriMesh& mesh_;
-  int looks_ = 0;
+  std::vector<Look> looks_;
   std::vector<std::uint8_t> is_seen_;           ///< [F] of the input: whether it crosses is known
   std::vector<std::array<Index, 3>> crossing_;  ///< those seen that cross, and what they cross
   std::unique_ptr<SurfaceDistance> own_;        ///< of those; nullptr: none
