@@ -8,7 +8,6 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <thread>
 #include <tuple>
@@ -82,7 +81,7 @@ void run_cancellable(std::int64_t threads, const py::object& progress,
   WatchedObserver observer;
   Finish finish;
   std::exception_ptr failure;
-  std::optional<py::error_already_set> raised;
+  std::exception_ptr raised;
   std::thread worker([&] {
     try {
       const auto limit = threads > 0 ? static_cast<std::size_t>(threads)
@@ -101,14 +100,14 @@ void run_cancellable(std::int64_t threads, const py::object& progress,
       if (raised) continue;
       try {
         look_after(progress, observer);
-      } catch (const py::error_already_set& error) {
-        raised = error;
+      } catch (...) {
+        raised = std::current_exception();
         observer.cancel();
       }
     }
     worker.join();
   }
-  if (raised) throw py::error_already_set(*raised);
+  if (raised) std::rethrow_exception(raised);
   if (failure) std::rethrow_exception(failure);
 }
 

@@ -46,12 +46,15 @@ struct RemeshCommand {
   ShellOptions shell;
 
   Chain chain;
+  Provenance asked;  ///< without inputs
 
   void add_to(CLI::App& app);
   void check() const;
   [[nodiscard]] std::vector<SideFile> side_files() const;
-  /// How one would say that the result was made in one go.
-  [[nodiscard]] Provenance provenance();
+  /// How one would say that the result was made in one go. Inputs are those of now, options those
+  /// that were asked for: the chain changes them on its way.
+  [[nodiscard]] Provenance provenance() const;
+  [[nodiscard]] Provenance without_inputs();
   void run();
   void make_output();
 };
@@ -118,7 +121,7 @@ std::vector<SideFile> RemeshCommand::side_files() const {
   return given;
 }
 
-Provenance RemeshCommand::provenance() {
+Provenance RemeshCommand::without_inputs() {
   Provenance whole;
   whole.stage = "remesh";
   for (const Stage* stage : chain.stages()) {
@@ -133,6 +136,11 @@ Provenance RemeshCommand::provenance() {
   for (std::size_t i = 0; i < own.size(); ++i) {
     whole.options.push_back({own[i].name, own[i].value(), own[i].value() == defaults[i].value()});
   }
+  return whole;
+}
+
+Provenance RemeshCommand::provenance() const {
+  Provenance whole = asked;
   whole.inputs = {{"input", content_digest(input)}};
   for (const SideFile& file : side_files()) {
     whole.inputs.push_back({file.port, content_digest(file.path)});
@@ -142,6 +150,7 @@ Provenance RemeshCommand::provenance() {
 
 void RemeshCommand::run() {
   check();
+  asked = without_inputs();
   Repro repro{shell.repro, "strake remesh", {input}, [this] { return provenance(); }};
   for (const SideFile& file : side_files()) repro.inputs.emplace_back(file.path);
   with_repro(repro, [this] { make_output(); });

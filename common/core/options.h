@@ -54,4 +54,21 @@ struct Option {
 
 using OptionList = std::vector<Option>;
 
+/// Gives an option another value, until it goes out of scope, however that happens.
+class OtherValue {
+ public:
+  /// \param option  kept by reference
+  /// \throw UsageError as `Option::parse_into`
+  OtherValue(const Option& option, std::string_view text) : option_(option), own_(option.value()) {
+    option.parse_into(text);
+  }
+  OtherValue(const OtherValue&) = delete;
+  OtherValue& operator=(const OtherValue&) = delete;
+  ~OtherValue() { option_.parse_into(own_); }
+
+ private:
+  const Option& option_;
+  std::string own_;
+};
+
 }  // namespace strake

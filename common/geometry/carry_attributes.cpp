@@ -6,11 +6,10 @@
 #include <map>
 #include <span>
 
+#include "common/geometry/surface_point.h"
+
 namespace strake {
 namespace {
-
-/// On an edge where a barycentric coordinate is below this.
-constexpr double kOnEdge = 1e-9;
 
 /// A point of the surface in one of the triangles that it belongs to.
 struct Place {

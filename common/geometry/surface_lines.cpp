@@ -6,8 +6,6 @@
 namespace strake {
 namespace {
 
-/// On an edge or at a vertex where barycentric coordinates are this near to 0 or 1.
-constexpr double kOnEdge = 1e-9;
 /// A line runs along a straight way that is this much shorter, at most.
 constexpr double kLongestLine = 2;
 

@@ -6,6 +6,10 @@
 
 namespace strake {
 
+/// A point is on an edge where a barycentric coordinate is below this, and at a vertex where one is
+/// this near to 1.
+inline constexpr double kOnEdge = 1e-9;
+
 /// A point of a surface.
 struct SurfacePoint {
   Index face = kNone;

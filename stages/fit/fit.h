@@ -33,8 +33,9 @@ struct FitResult {
 /// divided, or made anew with those around (move_apart.h, divide_crossing.h, refill_crossing.h).
 /// \param field  nullptr: lines of edges only keep straight and even
 /// \pre `quads` was made from `mesh`, and so was `field`
-/// \return the same faces but for those; provenance with the new feet; deterministic for any
-/// thread count Cost O(faces of the result * log faces of the mesh) per round.
+/// \return the same faces but for those; provenance with the new feet; the same for any number of
+///         threads
+/// Cost O(faces of the result * log faces of the mesh) per round.
 FitResult fit_vertices(const TriMesh& mesh, const PrincipalField* field, const QuadMesh& quads,
                        const FitOptions& options, Observer& observer);
 

@@ -6,13 +6,12 @@
 #include <cmath>
 
 #include "common/geometry/frames.h"
+#include "common/geometry/surface_point.h"
 #include "stages/fit/result_components.h"
 
 namespace strake::fitting {
 namespace {
 
-/// On a line where barycentric coordinates are below this.
-constexpr double kOnEdge = 1e-9;
 /// A foot stays on a sheet whose normal is within 60 degrees of the last one.
 constexpr double kLeastAgreement = 0.5;
 

@@ -1,16 +1,21 @@
 #include "stages/import/triangulate.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <optional>
 #include <queue>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "common/core/error.h"
 #include "common/geometry/angles.h"
 
 namespace strake::import {
@@ -337,7 +342,14 @@ class Triangulator {
 }  // namespace
 
 Soup triangulate(const PolyMesh& mesh, Repairs& repairs) {
-  return Triangulator(mesh, repairs).run();
+  Soup soup = Triangulator(mesh, repairs).run();
+  // Half-edges are numbered.
+  constexpr std::size_t kMostTriangles = std::numeric_limits<Index>::max() / 3;
+  if (soup.faces.size() > kMostTriangles) {
+    throw InputError(fmt::format("more than {} triangles, {}; split the model into parts",
+                                 kMostTriangles, soup.faces.size()));
+  }
+  return soup;
 }
 
 }  // namespace strake::import

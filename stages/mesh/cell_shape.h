@@ -15,6 +15,11 @@ Polygon corner_positions(const PolygonGraph& graph, const DartLoop& cell);
 /// The vector area of a polygon (Newell).
 Vec3 vector_area(const Polygon& p);
 
+/// Twice the area of a flat triangle, negative where it turns clockwise.
+inline double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
+  return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
+}
+
 /// Interior angle at corner i, in [0, 2 pi), seen along the unit normal n.
 double interior_angle(const Polygon& p, std::size_t i, const Vec3& n);
 

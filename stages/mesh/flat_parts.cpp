@@ -19,10 +19,6 @@ constexpr std::size_t kTangle = 20;
 /// Corners around a node that turn by more are in another order than their darts.
 constexpr double kFullTurn = 2 * M_PI + 1e-6;
 
-double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
-  return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
-}
-
 /// Whether two segments have a point in common. \pre their boxes have
 bool meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   return turn(a, b, c) * turn(a, b, d) <= 0 && turn(c, d, a) * turn(c, d, b) <= 0;
@@ -48,14 +44,10 @@ FlatParts::FlatParts(const PolygonGraph& graph) : graph_(graph) {
   part_of_.assign(g.dart_count(), kNone);
   cell_of_.assign(g.dart_count(), kNone);
   std::vector<std::pair<double, Index>> seeds;  // the largest cells first
-  std::vector<char> seen(g.dart_count(), 0);
-  for (Index d = 0; d < g.dart_count(); ++d) {
-    if (!g.is_alive(d) || seen[d] != 0) continue;
-    const DartLoop cell = graph.cell(d);
-    for (const Index other : cell) seen[other] = 1;
+  graph.for_each_cell([&](Index d, const DartLoop& cell) {
     const double area = vector_area(corner_positions(graph, cell)).norm();
-    if (area > 0 && !graph.is_hole(d)) seeds.emplace_back(-area, d);
-  }
+    if (area > 0) seeds.emplace_back(-area, d);
+  });
   std::ranges::sort(seeds);
   std::vector<char> taken(g.dart_count(), 0);
   for (const auto& [area, d] : seeds) {

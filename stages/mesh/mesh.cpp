@@ -67,13 +67,9 @@ bool find_starved(const TriMesh& mesh, const std::vector<Index>& component,
                   const PolygonGraph& graph, Triangles last, std::vector<Triangles>& triangles) {
   const DartGraph& g = graph.graph();
   std::vector<Index> cells(triangles.size(), 0);
-  std::vector<char> seen(g.dart_count(), 0);
-  for (Index d = 0; d < g.dart_count(); ++d) {
-    if (!g.is_alive(d) || seen[d] != 0) continue;
-    const DartLoop cell = graph.cell(d);
-    for (const Index other : cell) seen[other] = 1;
-    if (cell.size() > 2 && !graph.is_hole(d)) ++cells[component[graph.node(g.from(d)).face]];
-  }
+  graph.for_each_cell([&](Index d, const DartLoop& cell) {
+    if (cell.size() > 2) ++cells[component[graph.node(g.from(d)).face]];
+  });
   std::vector<char> open(triangles.size(), 0);  // one cell is enough for a surface with boundary
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
     if (mesh.is_boundary(h)) open[component[TriMesh::face_of(h)]] = 1;
@@ -112,13 +108,8 @@ QuadMesh assemble(const TriMesh& mesh, const PolygonGraph& graph) {
   result.mesh_id = mesh.id;
   std::vector<Index> vertex_of(graph.node_count(), kNone);
   const DartGraph& g = graph.graph();
-  std::vector<char> seen(g.dart_count(), 0);
   std::vector<Index> corners;
-  for (Index d = 0; d < g.dart_count(); ++d) {
-    if (!g.is_alive(d) || seen[d] != 0) continue;
-    const DartLoop cell = graph.cell(d);
-    for (const Index other : cell) seen[other] = 1;
-    if (graph.is_hole(d)) continue;
+  graph.for_each_cell([&](Index, const DartLoop& cell) {
     corners.clear();
     for (const Index other : cell) {
       const Index n = g.from(other);
@@ -141,7 +132,7 @@ QuadMesh assemble(const TriMesh& mesh, const PolygonGraph& graph) {
       corners.push_back(vertex_of[n]);
     }
     result.mesh.add_face(corners);
-  }
+  });
   return result;
 }
 

@@ -1,7 +1,10 @@
 #include "stages/mesh/overlay.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <tuple>
 
@@ -110,6 +113,11 @@ class EdgeCutter {
   void reserve_edges(std::size_t points) {
     std::size_t edges = 3 * points;
     for (Index h = 0; h < mesh_.halfedge_count(); ++h) edges += mesh_.edge_of(h) == h ? 1 : 0;
+    if (edges > std::numeric_limits<Index>::max() / 2) {
+      throw InputError(fmt::format(
+          "{} edges, cut by lines, are more than can be numbered; split the model into parts",
+          edges));
+    }
     overlay_.graph.reserve(2 * edges);
     overlay_.kind.reserve(edges);
     overlay_.line.reserve(edges);

@@ -51,20 +51,13 @@ class Pairing {
   }
   /// Everything worth doing, the best first.
   std::vector<Change> changes() {
-    const DartGraph& g = graph_.graph();
     std::vector<Change> found;
-    std::vector<char> seen(g.dart_count(), 0);
-    for (Index d = 0; d < g.dart_count(); ++d) {
-      if (!g.is_alive(d) || seen[d] != 0) continue;
-      const DartLoop cell = graph_.cell(d);
-      for (const Index other : cell) seen[other] = 1;
-      if (graph_.is_hole(d)) continue;
-      if (cell.size() == 3 || cell.size() == 5) {
-        for (const Index out : cell) add_chords(out, found);
-        std::vector<Index> way = {d};
-        add_patches(way, found);
-      }
-    }
+    graph_.for_each_cell([&](Index d, const DartLoop& cell) {
+      if (cell.size() != 3 && cell.size() != 5) return;
+      for (const Index out : cell) add_chords(out, found);
+      std::vector<Index> way = {d};
+      add_patches(way, found);
+    });
     std::stable_sort(found.begin(), found.end(),
                      [](const Change& a, const Change& b) { return a.gain > b.gain; });
     return found;

@@ -18,10 +18,6 @@ constexpr double kBulge = 1e-3;
 constexpr int kMoveRounds = 8;
 constexpr std::size_t kLargestScored = 24;
 
-double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
-  return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
-}
-
 /// A polygon seen along its normal, to tell which diagonals run inside it.
 class FlatPolygon {
  public:
@@ -87,14 +83,8 @@ class Partitioner {
 
   /// One dart of every cell.
   std::vector<Index> cells() const {
-    const DartGraph& g = graph_.graph();
-    std::vector<char> seen(g.dart_count(), 0);
     std::vector<Index> first;
-    for (Index d = 0; d < g.dart_count(); ++d) {
-      if (!g.is_alive(d) || seen[d] != 0) continue;
-      for (const Index other : graph_.cell(d)) seen[other] = 1;
-      if (!graph_.is_hole(d)) first.push_back(d);
-    }
+    graph_.for_each_cell([&](Index d, const DartLoop&) { first.push_back(d); });
     return first;
   }
 
@@ -166,7 +156,7 @@ class Partitioner {
     return kNone;
   }
 
-  /// Divides a cell from a new node in its middle, where all its diagonals are edges already.
+  /// Divides a cell that no diagonal divides, from a new node in its middle.
   void fan_out(const DartLoop& cell) {
     Vec3 middle = Vec3::Zero();
     for (const Vec3& v : corner_positions(graph_, cell))

@@ -39,6 +39,17 @@ class PolygonGraph {
   [[nodiscard]] Index degree(Index dart) const;
   /// Darts of the cell left of `dart`, starting with it.
   [[nodiscard]] DartLoop cell(Index dart) const;
+  /// Calls use(dart, cell) for every cell that is no hole, by its least dart, ascending.
+  template <class Use>
+  void for_each_cell(const Use& use) const {
+    std::vector<char> seen(graph().dart_count(), 0);
+    for (Index d = 0; d < graph().dart_count(); ++d) {
+      if (!graph().is_alive(d) || seen[d] != 0) continue;
+      const DartLoop loop = cell(d);
+      for (const Index other : loop) seen[other] = 1;
+      if (!is_hole(d)) use(d, loop);
+    }
+  }
   /// The least dart of the cell left of `dart`, to tell cells apart.
   [[nodiscard]] Index name_of_cell(Index dart) const;
   /// A dart from a to b where `around` leaves a; kNone where there is no such edge.

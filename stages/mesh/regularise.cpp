@@ -50,15 +50,10 @@ class Regularising {
  private:
   /// Everything worth doing at active nodes, the best first.
   std::vector<Change> changes() {
-    const DartGraph& g = graph_.graph();
     find_excess();
     std::vector<Change> found;
-    std::vector<char> seen(g.dart_count(), 0);
-    for (Index d = 0; d < g.dart_count(); ++d) {
-      if (!g.is_alive(d) || seen[d] != 0) continue;
-      const DartLoop cell = graph_.cell(d);
-      for (const Index other : cell) seen[other] = 1;
-      if (cell.size() != 4 || graph_.is_hole(d)) continue;
+    graph_.for_each_cell([&](Index d, const DartLoop& cell) {
+      if (cell.size() != 4) return;
       if (any_corner(cell, [&](Index n) { return active_[n] != 0; })) {
         add_closing(cell[0], found);
         add_closing(cell[1], found);
@@ -68,7 +63,7 @@ class Regularising {
         std::vector<Index> row = {d};
         add_patches(row, found);
       }
-    }
+    });
     std::stable_sort(found.begin(), found.end(),
                      [](const Change& a, const Change& b) { return a.gain > b.gain; });
     return found;

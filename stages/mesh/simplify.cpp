@@ -62,7 +62,9 @@ bool keeps_faces(const PolygonGraph& graph, Index dart) {
 /// Dissolves a node of degree two where that leaves polygons with distinct edges.
 bool try_dissolve(PolygonGraph& graph, Index dart) {
   const DartGraph& g = graph.graph();
-  if (graph.degree(dart) != 2 || graph.rank(g.from(dart)) != NodeRank::line) return false;
+  if (graph.rank(g.from(dart)) != NodeRank::line) return false;
+  // Not by the degree: of thousands it would be counted again and again.
+  if (g.rotate_ccw(dart) == dart || g.rotate_ccw(g.rotate_ccw(dart)) != dart) return false;
   const Index first = g.prev(dart);
   const Index a = g.from(first);
   const Index b = g.to(dart);

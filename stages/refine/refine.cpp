@@ -33,6 +33,7 @@ namespace {
 
 /// Of the tolerance, kept for the rounding of whoever measures again.
 constexpr double kMargin = 1e-3;
+constexpr const char* kFinishing = "finishing cells";
 constexpr std::size_t kLeastMaxSides = 5;
 /// Heights below this share of what a cell is off by do not explain it.
 constexpr double kExplains = 0.25;
@@ -290,6 +291,7 @@ std::int64_t refine_to_tolerance(const TriMesh& mesh, Refinement& refinement,
     std::vector<Excess> excess = proof.check(surfaces);
     report.set("refine.places_beyond", excess.size());
     if (excess.empty()) {
+      proof.report_to(observer, kFinishing);
       refinement.finish(proof);
       return round;
     }
@@ -300,6 +302,7 @@ std::int64_t refine_to_tolerance(const TriMesh& mesh, Refinement& refinement,
     }
     if (round == options.rounds || round - fewest_round == kRoundsInVain) {
       if (options.partly) return round;
+      proof.report_to(observer, kFinishing);
       if (options.rounds > 0 && inlay_beyond(proof, fewest, refinement.crossing(), best)) {
         report.set("refine.places_beyond", std::size_t{0});
         refinement.take(std::move(best));

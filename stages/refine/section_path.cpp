@@ -10,7 +10,6 @@
 namespace strake {
 namespace {
 
-constexpr double kOnEdge = 1e-9;  ///< barycentric coordinates below this are zero
 constexpr int kMostFaces = 100000;
 
 /// The cut of a plane with the mesh, followed face by face.

@@ -10,6 +10,7 @@
 #include "common/core/error.h"
 #include "common/geometry/surface_distance/surface_distance.h"
 #include "stages/refine/enclosed.h"
+#include "stages/refine/openmesh_silence.h"
 
 namespace strake {
 namespace {
@@ -58,6 +59,7 @@ std::set<Index> faces_in(const TriMesh& mesh, const std::vector<Index>& faces,
 }
 
 Part to_openmesh(const TriMesh& mesh, const std::set<Index>& faces) {
+  const OpenMeshSilence silence;
   Part part;
   std::map<Index, OpenMesh::VertexHandle> vertex;
   for (const Index f : faces) {

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "common/core/error.h"
+#include "stages/refine/openmesh_silence.h"
 
 namespace strake {
 namespace {
@@ -73,6 +74,7 @@ class NoChords : public OpenMesh::Decimater::ModBaseT<MeshT> {
 std::optional<Patch> scaled_patch(const std::vector<Vec3>& positions,
                                   const std::vector<std::array<Index, 3>>& triangles,
                                   double scale) {
+  const OpenMeshSilence silence;
   Patch patch;
   patch.request_vertex_status();
   patch.request_edge_status();

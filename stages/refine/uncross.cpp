@@ -20,18 +20,21 @@
 namespace strake {
 namespace {
 
+constexpr const char* kPhase = "replacing faces that cross";
 /// Few samples do to tell how far a result is from the surface.
 constexpr CellSampling kSampling = {.rows = 2, .input_step = 1};
 /// Distance by which inlays are thinned out, in root mean squares of the result's.
 constexpr double kThinnedBy = 2;
 
 /// The result with inlays; as it is where there are none.
-QuadMesh with_inlays(const TriMesh& mesh, const QuadMesh& quads, CrossingPlaces& crossing) {
+QuadMesh with_inlays(const TriMesh& mesh, const QuadMesh& quads, CrossingPlaces& crossing,
+                     Observer& observer) {
   const auto input = std::make_shared<const InputSurface>(mesh);
   const ComparedSurfaces surfaces(input, quads);
   const ErrorMap errors = measure_cells(surfaces, kSampling);
   if (!(errors.rms > 0)) return quads;
   ToleranceProof proof(input, errors.largest);
+  proof.report_to(observer, kPhase);
   proof.assume(surfaces);
   QuadMesh inlaid = quads;
   inlaid.mesh.attributes = {};  // carried over anew at the end
@@ -50,8 +53,8 @@ UncrossResult uncross_faces(const TriMesh& mesh, const QuadMesh& quads, Observer
   const std::size_t before = crossing.faces_of(quads.mesh).size();
   std::size_t after = before;
   if (before > 0) {
-    observer.report("replacing faces that cross", 0);
-    QuadMesh inlaid = with_inlays(mesh, quads, crossing);
+    observer.report(kPhase, 0);
+    QuadMesh inlaid = with_inlays(mesh, quads, crossing, observer);
     after = crossing.faces_of(inlaid.mesh).size();
     if (after < before) result.quads = std::move(inlaid);
   }

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
+#include "common/core/disjoint_sets.h"
 #include "common/geometry/mesh_measures.h"
 
 namespace strake {
@@ -118,38 +120,29 @@ std::vector<char> too_small(const TriMesh& mesh, const std::vector<BarrierLine>&
   }
   // Groups: the smallest line index names the group of each end vertex.
   std::vector<Index> group(mesh.vertex_count(), kNone);
-  std::vector<Index> parent(lines.size());
-  for (std::size_t l = 0; l < lines.size(); ++l) parent[l] = static_cast<Index>(l);
-  const auto find = [&](Index l) {
-    while (parent[l] != l) l = parent[l] = parent[parent[l]];
-    return l;
-  };
+  DisjointSets groups(static_cast<Index>(lines.size()));
   std::vector<char> ring(lines.size(), 0);
   for (std::size_t l = 0; l < lines.size(); ++l) {
     if (dropped[l] != 0) continue;
-    if (lines[l].closed || lines[l].boundary) ring[find(static_cast<Index>(l))] = 1;
+    if (lines[l].closed || lines[l].boundary) ring[groups.find(static_cast<Index>(l))] = 1;
     if (lines[l].closed) continue;
     for (const Index v : ends(lines[l])) {
-      const Index own = find(static_cast<Index>(l));
+      const Index own = groups.find(static_cast<Index>(l));
       if (group[v] == kNone) {
         group[v] = own;
         continue;
       }
-      const Index other = find(group[v]);
-      if (other == own) {
-        ring[own] = 1;
-      } else {
-        parent[std::max(own, other)] = std::min(own, other);
-        if (ring[std::max(own, other)] != 0) ring[std::min(own, other)] = 1;
-      }
+      const Index other = groups.find(group[v]);
+      const bool is_ring = !groups.unite(own, other) || ring[own] != 0 || ring[other] != 0;
+      if (is_ring) ring[groups.find(own)] = 1;
     }
   }
   std::vector<double> total(lines.size(), 0);
   for (std::size_t l = 0; l < lines.size(); ++l) {
-    if (dropped[l] == 0) total[find(static_cast<Index>(l))] += lines[l].measure;
+    if (dropped[l] == 0) total[groups.find(static_cast<Index>(l))] += lines[l].measure;
   }
   for (std::size_t l = 0; l < lines.size(); ++l) {
-    const Index g = find(static_cast<Index>(l));
+    const Index g = groups.find(static_cast<Index>(l));
     if (!lines[l].boundary && total[g] < (ring[g] != 0 ? kSmallestRing : kSmallestTree))
       dropped[l] = 1;
   }

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "common/core/error.h"
+#include "common/core/tolerance_error.h"
 
 namespace strake {
 namespace {
@@ -15,6 +17,18 @@ constexpr Index kMostAttempts = 8;
 constexpr Index kMostFaces = 200000;
 /// Where more faces cross the shape is finer than its lines all over.
 constexpr std::size_t kMostPlaces = 1000;
+
+/// One more attempt; nothing where it comes to no result, or to none within a tolerance.
+std::optional<Attempt> attempt_again(const Again& again, Session session,
+                                     const std::vector<Vec3>& places) {
+  try {
+    return again(std::move(session), places);
+  } catch (const AlgorithmError&) {
+    return std::nullopt;
+  } catch (const ToleranceError&) {
+    return std::nullopt;
+  }
+}
 
 }  // namespace
 
@@ -33,12 +47,12 @@ Attempt part_faces(const Attempt& first, Index faces, int patience, const Again&
     const std::vector<Vec3> before = last.places;
     session.say(fmt::format("{} faces cross; tracing closer lines around {} places",
                             best.places.size(), last.places.size()));
-    try {
-      last = again(std::move(session), before);
-    } catch (const AlgorithmError&) {
+    std::optional<Attempt> next = attempt_again(again, std::move(session), before);
+    if (!next) {
       is_last_best = false;
       break;
     }
+    last = *std::move(next);
     if (last.misses_goal || 2 * last.places.size() > best.places.size()) --patience;
     is_last_best = !last.misses_goal && last.places.size() < best.places.size();
     if (is_last_best) best = last;

@@ -98,8 +98,18 @@ void Chain::check_goals() const {
 }
 
 std::string Chain::reach_goal(Session& session) const {
-  const GoalStages goal_stages{coarsen, tensor, smooth, trace,  mesh,    lift,
-                               prolong, fit,    size,   refine, uncross, decimate};
+  const GoalStages goal_stages{.coarsen = coarsen,
+                               .tensor = tensor,
+                               .smooth = smooth,
+                               .trace = trace,
+                               .mesh = mesh,
+                               .lift = lift,
+                               .prolong = prolong,
+                               .fit = fit,
+                               .size = size,
+                               .refine = refine,
+                               .uncross = uncross,
+                               .decimate = decimate};
   for (const Counted counted : {Counted::vertices, Counted::faces}) {
     const char* name = counted == Counted::vertices ? "vertices" : "faces";
     const std::string wanted = trace.option(name).value();

@@ -91,10 +91,9 @@ void trace_mesh_and_fit(Session& session, const GoalStages& stages) {
 /// Fits as many rounds as show which cells are worst.
 void fit_before_dividing(Session& session, const GoalStages& stages) {
   const Option& rounds = stages.fit.option("fit-rounds");
-  const std::string all_rounds = rounds.value();
-  rounds.parse_into(std::to_string(std::min(kRoundsBeforeDividing, std::stoi(all_rounds))));
+  const OtherValue few(rounds,
+                       std::to_string(std::min(kRoundsBeforeDividing, std::stoi(rounds.value()))));
   session.run(stages.fit);
-  rounds.parse_into(all_rounds);
 }
 
 /// Wants other distances between lines where the present result is too far from the surface.
@@ -122,14 +121,12 @@ void feed_back(Session& session, const GoalStages& stages, const LineAim& aim) {
 void shrink_to_tolerance(Session& session, const GoalStages& stages, const std::string& tolerance) {
   trace_and_mesh(session, stages);
   const Option& aim = stages.size.option("size-tolerance");
-  const std::string own_aim = aim.value();
-  if (own_aim.empty()) {
-    Length length = Length::parse(tolerance);
-    length.value *= kAimedAt;
-    aim.parse_into(length.to_string());
+  Length length = Length::parse(tolerance);
+  length.value *= kAimedAt;
+  {
+    const OtherValue aimed_at(aim, aim.value().empty() ? length.to_string() : aim.value());
+    want_by_errors(session, stages);
   }
-  want_by_errors(session, stages);
-  aim.parse_into(own_aim);
   stages.trace.option("spacing-scale").parse_into(kScaleOfLines);
 }
 
@@ -278,17 +275,12 @@ void fit_refined(Session& session, const GoalStages& stages) {
 /// \return what the result misses; nothing where "refined" is within the tolerance
 std::optional<ToleranceError> refine_in_turn(Session& session, const GoalStages& stages) {
   const Option& rounds = stages.refine.option("refine-rounds");
-  const Option& partly = stages.refine.option("refine-partly");
-  const std::string all_rounds = rounds.value();
-  const std::string may_miss = partly.value();
-  partly.parse_into("true");
-  for (int i = 0; i < std::min(kFittedRefinements, std::stoi(all_rounds)); ++i) {
-    rounds.parse_into("1");
+  for (int i = 0; i < std::min(kFittedRefinements, std::stoi(rounds.value())); ++i) {
+    const OtherValue once(rounds, "1");
+    const OtherValue may_miss(stages.refine.option("refine-partly"), "true");
     session.run(stages.refine);
     fit_refined(session, stages);
   }
-  rounds.parse_into(all_rounds);
-  partly.parse_into(may_miss);
   std::optional<ToleranceError> miss;
   try {
     session.run(stages.refine);

@@ -14,19 +14,24 @@ namespace strake {
 ///
 /// In the first `feedback_rounds` rounds lines are traced again at distances that follow from the
 /// errors measured (by default one, with a density as many as it takes to follow it, up to five);
-/// then only the scale of all distances changes. Where more than 2 % of the count are missing in
-/// the end the cells that are farthest off are divided. Where faces of the result cross, the
-/// input's own take their place (uncross.h), and where some still do lines are traced closer there
-/// and the count is looked for again. Where lines are too coarse for the surface decimation may
-/// take their place (too_coarse.h). Where the input is much finer than the result all but the last
-/// rounds of fitting happens on a coarser mesh (working_mesh.h). \param lines_only     never
-/// decimate \param working_ratio  of the coarser mesh \return the port of the result
+/// then only the scale of all distances changes. Lines leave a hundredth of the count to the cells
+/// that are farthest off, which are divided; with a density cells are only where more than 5 % of
+/// the count would be missing. Where faces of the result cross, the input's own take their place
+/// (uncross.h), and where some still do lines are traced closer there and the count is looked for
+/// again. Where lines are too coarse for the surface decimation may take their place
+/// (too_coarse.h). Where the input is much finer than the result all but the last rounds of fitting
+/// happens on a coarser mesh (working_mesh.h).
+/// \param wanted         vertices or faces, as `counted` says; positive
+/// \param lines_only     never decimate
+/// \param working_ratio  vertices of the coarser mesh for each that is wanted; 0: never
+/// \return the port of the result
+/// \throw AlgorithmError where a stage has no sound result
 std::string meet_count(Session& session, const GoalStages& stages, Counted counted,
                        std::int64_t wanted, std::optional<std::int64_t> feedback_rounds,
                        bool lines_only, double working_ratio);
 
-/// Traces once, at the distances that the options of tracing ask for. \return the port of the
-/// result
+/// Traces once, at the distances that the options of tracing ask for.
+/// \return the port of the result
 std::string follow_spacing(Session& session, const GoalStages& stages);
 
 /// Traces, by default once more with closer lines where errors are too large, and divides cells

@@ -12,7 +12,8 @@ namespace strake {
 ///
 /// They are where faces cross that do not in the surface, where the distance to it is what one sees
 /// beside the size of a cell, or where the count is missed. Much better is a result that crosses
-/// less, is at less than half of the distance or has the count, and is in none of these worse; it
+/// less, is at less than half of the distance (a quarter where that is below 6 % of a cell) or has
+/// the count, and is in none of these worse; it
 /// takes the place of "quads" and "fitted" then, "uncrossed" goes, and the user is told. Such a
 /// result is quad-dominant by area, and follows edges of the surface rather than lines.
 /// \pre what `result_port` names was made from lines for that count

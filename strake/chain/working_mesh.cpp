@@ -58,10 +58,8 @@ void take_from_coarser_mesh(Session& session, Session coarser, const GoalStages&
   session.keep(stages.prolong);
   for (const char* port : {"coarse", "coarse-field", "coarse-quads"}) session.withdraw(port);
   const Option& rounds = stages.fit.option("fit-rounds");
-  const std::string all_rounds = rounds.value();
-  rounds.parse_into(std::to_string(std::min(kLastRounds, std::stoi(all_rounds))));
+  const OtherValue few(rounds, std::to_string(std::min(kLastRounds, std::stoi(rounds.value()))));
   session.run(stages.fit);
-  rounds.parse_into(all_rounds);
   session.keep(stages.fit);
 }
 

@@ -125,7 +125,7 @@ void RunCommand::print_plan(const Plan& plan, const std::vector<StepState>& stat
 }
 
 std::int64_t RunCommand::threads_for(const std::vector<StepOrder>& orders) const {
-  // Steps of one rule run at once at best; they share the processors.
+  // Steps of one program wait for the same before them, so these are taken to run at once.
   std::map<std::string, std::int64_t> abreast;
   std::int64_t most = 1;
   for (const StepOrder& order : orders) most = std::max(most, ++abreast[order.program]);

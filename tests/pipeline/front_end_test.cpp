@@ -50,6 +50,18 @@ TEST_F(FrontEnd, MeetsAWantedCount) {
   }
 }
 
+/// Values that the search for the count leaves behind are nobody's wish.
+TEST_F(FrontEnd, SaysOfResultsWhatWasAskedFor) {
+  must("strake remesh torus.ply -q --no-evaluate -o out.hdf --vertices 400 --seed 7");
+  const std::string told = run("strake info out.hdf").out;
+  for (const char* part : {"--vertices 400", "--seed 7"}) {
+    EXPECT_NE(told.find(part), std::string::npos) << part << " in\n" << told;
+  }
+  for (const char* part : {"spacing-scale", "refine-vertices"}) {
+    EXPECT_EQ(told.find(part), std::string::npos) << part << " in\n" << told;
+  }
+}
+
 /// Measured by the judge of the stage evaluate, both ways.
 TEST_F(FrontEnd, KeepsAToleranceOrSaysWhereNot) {
   for (const char* tolerance : {"0.05%", "0.4%"}) {

@@ -196,56 +196,68 @@ struct Verdict {
   }
 };
 
-/// [triangles] of one surface. \param is_proven  [triangles] 1: need not be looked at
-std::vector<Verdict> check_surface(const SurfaceDistance& own, const SurfaceDistance& other,
-                                   double tolerance, const std::vector<char>& is_proven) {
-  const PieceCheck check(other, tolerance);
-  std::vector<Corner> corners(own.positions().size());
-  std::vector<char> used(corners.size(), 0);
+/// What is known of some triangles of a surface.
+struct Verdicts {
+  std::vector<Index> triangle;   ///< ascending
+  std::vector<Verdict> verdict;  ///< of each
+};
+
+/// \param is_proven  [triangles] 1: need not be looked at
+Verdicts check_surface(const SurfaceDistance& own, const SurfaceDistance& other, double tolerance,
+                       const std::vector<char>& is_proven) {
+  Verdicts found;
+  std::vector<Index> corner_of(own.positions().size(), kNone);
   for (std::size_t t = 0; t < own.triangles().size(); ++t) {
     if (is_proven[t] != 0) continue;
-    for (const Index v : own.triangles()[t]) used[v] = 1;
+    found.triangle.push_back(static_cast<Index>(t));
+    for (const Index v : own.triangles()[t]) corner_of[v] = 0;
   }
+  std::vector<Index> vertices;
+  for (std::size_t v = 0; v < corner_of.size(); ++v) {
+    if (corner_of[v] == kNone) continue;
+    corner_of[v] = static_cast<Index>(vertices.size());
+    vertices.push_back(static_cast<Index>(v));
+  }
+  const PieceCheck check(other, tolerance);
+  std::vector<Corner> corners(vertices.size());
   const tbb::blocked_range<std::size_t> all(0, corners.size(), kCornersInARow);
   tbb::parallel_for(all, [&](const auto& row) {
     Index guess = kNone;
-    for (std::size_t v = row.begin(); v < row.end(); ++v) {
-      if (used[v] == 0) continue;
-      corners[v] = check.corner(own.positions()[v], guess);
-      guess = corners[v].foot.triangle;
+    for (std::size_t i = row.begin(); i < row.end(); ++i) {
+      corners[i] = check.corner(own.positions()[vertices[i]], guess);
+      guess = corners[i].foot.triangle;
     }
   });
-  std::vector<Verdict> verdicts(own.triangles().size());
-  tbb::parallel_for(std::size_t{0}, verdicts.size(), [&](std::size_t t) {
-    if (is_proven[t] != 0) return;
-    const auto& [a, b, c] = own.triangles()[t];
-    Verdict& verdict = verdicts[t];
+  found.verdict.resize(found.triangle.size());
+  tbb::parallel_for(std::size_t{0}, found.verdict.size(), [&](std::size_t i) {
+    const auto& [a, b, c] = own.triangles()[found.triangle[i]];
+    Verdict& verdict = found.verdict[i];
     const auto note_found = [&](const Corner& at, double distance) {
       if (distance <= verdict.distance) return;
       verdict.distance = distance;
       verdict.place = at.place;
       verdict.on_other = at.foot.triangle;
     };
-    check.check({corners[a], corners[b], corners[c]}, note_found,
+    check.check({corners[corner_of[a]], corners[corner_of[b]], corners[corner_of[c]]}, note_found,
                 [&](Index triangle) { verdict.note_near(triangle); });
     verdict.end_notes();
   });
-  return verdicts;
+  return found;
 }
 
 /// \param cell  [triangles of the result] its face
-std::vector<Excess> excess_of(const std::vector<Verdict>& of_result,
-                              const std::vector<Verdict>& of_input,
+std::vector<Excess> excess_of(const Verdicts& of_result, const Verdicts& of_input,
                               const std::vector<Index>& cell) {
   std::vector<Excess> excess;
-  for (std::size_t t = 0; t < of_result.size(); ++t) {
-    const Verdict& worst = of_result[t];
-    if (worst.on_other != kNone) excess.push_back({worst.distance, worst.place, cell[t], kNone});
-  }
-  for (std::size_t t = 0; t < of_input.size(); ++t) {
-    const Verdict& worst = of_input[t];
+  for (std::size_t i = 0; i < of_result.verdict.size(); ++i) {
+    const Verdict& worst = of_result.verdict[i];
     if (worst.on_other == kNone) continue;
-    excess.push_back({worst.distance, worst.place, cell[worst.on_other], static_cast<Index>(t)});
+    excess.push_back({worst.distance, worst.place, cell[of_result.triangle[i]], kNone});
+  }
+  for (std::size_t i = 0; i < of_input.verdict.size(); ++i) {
+    const Verdict& worst = of_input.verdict[i];
+    if (worst.on_other == kNone) continue;
+    excess.push_back({worst.distance, worst.place, cell[worst.on_other], of_input.triangle[i]});
   }
   return excess;
 }
@@ -268,6 +280,11 @@ std::size_t ToleranceProof::Hash::operator()(const Triangle& triangle) const {
 
 ToleranceProof::ToleranceProof(std::shared_ptr<const InputSurface> input, double tolerance)
     : input_(std::move(input)), tolerance_(tolerance), near_(input_->mesh.faces.size(), kNone) {}
+
+void ToleranceProof::report_to(Observer& observer, std::string phase) {
+  observer_ = &observer;
+  phase_ = std::move(phase);
+}
 
 /// Takes what is known of the last result to the triangles of the next one.
 void ToleranceProof::carry_over(const SurfaceDistance& result) {
@@ -316,30 +333,27 @@ void ToleranceProof::assume(const ComparedSurfaces& surfaces) {
   assumed_number_ = number_;
 }
 
-/// What is there of the assumed result is proven, and near to what it was near to.
-void ToleranceProof::take_what_is_assumed() {
-  if (assumed_near_.empty()) return;
-  std::vector<Index> now(assumed_number_.size(), kNone);
+/// Takes for proven what there is of the assumed result.
+/// \return [F of the input] 1: near to what was assumed, and is there, or to what was proven
+std::vector<char> ToleranceProof::take_what_is_assumed() {
+  std::vector<char> is_near(near_.size());
+  for (std::size_t f = 0; f < near_.size(); ++f) is_near[f] = near_[f] != kNone ? 1 : 0;
+  if (assumed_near_.empty()) return is_near;
+  std::vector<char> is_there(assumed_number_.size(), 0);
   for (const auto& [places, before] : assumed_number_) {
     const auto found = number_.find(places);
-    if (found == number_.end() || static_cast<std::size_t>(before) >= now.size()) continue;
-    now[before] = found->second;
+    if (found == number_.end() || static_cast<std::size_t>(before) >= is_there.size()) continue;
+    is_there[before] = 1;
     is_proven_[found->second] = 1;
   }
-  const auto near_to = [&](Index v) {
-    const auto before = static_cast<std::size_t>(assumed_near_[v]);
-    return before < now.size() ? now[before] : kNone;
+  const auto is_near_one = [&](Index v) {
+    const auto triangle = static_cast<std::size_t>(assumed_near_[v]);
+    return triangle < is_there.size() && is_there[triangle] != 0;
   };
-  for (std::size_t f = 0; f < near_.size(); ++f) {
-    if (near_[f] != kNone) continue;
-    const auto& [a, b, c] = input_->mesh.faces[f];
-    const std::array<Index, 3> near = {near_to(a), near_to(b), near_to(c)};
-    if (std::ranges::find(near, kNone) != near.end()) continue;
-    near_[f] = near[0];
-    if (near[1] != near[0] || near[2] != near[0]) {
-      others_near_[static_cast<Index>(f)] = {near[1], near[2]};
-    }
-  }
+  tbb::parallel_for(std::size_t{0}, is_near.size(), [&](std::size_t f) {
+    if (std::ranges::all_of(input_->mesh.faces[f], is_near_one)) is_near[f] = 1;
+  });
+  return is_near;
 }
 
 std::vector<Excess> ToleranceProof::check(const ComparedSurfaces& surfaces) {
@@ -349,23 +363,20 @@ std::vector<Excess> ToleranceProof::check(const ComparedSurfaces& surfaces) {
 /// \param cell  [triangles of the result] its face
 std::vector<Excess> ToleranceProof::check(const SurfaceDistance& result,
                                           const std::vector<Index>& cell) {
+  if (observer_ != nullptr) observer_->report(phase_, 0);
   carry_over(result);
-  take_what_is_assumed();
-  std::vector<char> is_near(near_.size());
-  for (std::size_t f = 0; f < is_near.size(); ++f) is_near[f] = near_[f] != kNone ? 1 : 0;
-  const std::vector<Verdict> of_result =
-      check_surface(result, input_->distance, tolerance_, is_proven_);
-  std::vector<Verdict> of_input = check_surface(input_->distance, result, tolerance_, is_near);
-  for (std::size_t t = 0; t < of_result.size(); ++t) {
-    if (of_result[t].on_other == kNone) is_proven_[t] = 1;
+  const std::vector<char> is_near = take_what_is_assumed();
+  const Verdicts of_result = check_surface(result, input_->distance, tolerance_, is_proven_);
+  Verdicts of_input = check_surface(input_->distance, result, tolerance_, is_near);
+  for (std::size_t i = 0; i < of_result.verdict.size(); ++i) {
+    if (of_result.verdict[i].on_other == kNone) is_proven_[of_result.triangle[i]] = 1;
   }
-  for (std::size_t f = 0; f < of_input.size(); ++f) {
-    Verdict& verdict = of_input[f];
-    if (is_near[f] != 0 || verdict.on_other != kNone) continue;
-    near_[f] = verdict.first_near;
-    if (!verdict.other_near.empty()) {
-      others_near_[static_cast<Index>(f)] = std::move(verdict.other_near);
-    }
+  for (std::size_t i = 0; i < of_input.verdict.size(); ++i) {
+    Verdict& verdict = of_input.verdict[i];
+    if (verdict.on_other != kNone) continue;
+    const Index face = of_input.triangle[i];
+    near_[face] = verdict.first_near;
+    if (!verdict.other_near.empty()) others_near_[face] = std::move(verdict.other_near);
   }
   return excess_of(of_result, of_input, cell);
 }

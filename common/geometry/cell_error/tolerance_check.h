@@ -3,9 +3,11 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
+#include "common/core/observer.h"
 #include "common/geometry/cell_error/compared_surfaces.h"
 
 namespace strake {
@@ -42,6 +44,10 @@ class ToleranceProof {
   [[nodiscard]] const std::shared_ptr<const InputSurface>& input() const { return input_; }
   [[nodiscard]] double tolerance() const { return tolerance_; }
 
+  /// Reports a phase before each check from now on, so that what takes many can be cancelled.
+  /// \param observer  kept by reference
+  void report_to(Observer& observer, std::string phase);
+
   /// Takes a result as it is for proven, and what is nearest to the vertices of each face of the
   /// input for near to all of it: from now on only what results have that is not of this one is
   /// checked. \pre `surfaces` compares with `input`
@@ -64,10 +70,12 @@ class ToleranceProof {
 
   std::vector<Excess> check(const SurfaceDistance& result, const std::vector<Index>& cell);
   void carry_over(const SurfaceDistance& result);
-  void take_what_is_assumed();
+  std::vector<char> take_what_is_assumed();
 
   std::shared_ptr<const InputSurface> input_;
   double tolerance_;
+  Observer* observer_ = nullptr;
+  std::string phase_;
   std::unordered_map<Triangle, Index, Hash> number_;  ///< of the last result's triangles
   std::vector<char> is_proven_;                       ///< [triangles of it] 1: nowhere beyond
   /// [F] a triangle of it that the face is near to, or a part of the face; kNone: not proven

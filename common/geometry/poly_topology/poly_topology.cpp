@@ -11,7 +11,6 @@
 namespace strake {
 namespace {
 
-/// Disjoint sets over 0 .. n - 1; the least member represents a set.
 void note(ElementDefect& defect, Index element) {
   if (defect.count++ == 0) defect.first = element;
 }

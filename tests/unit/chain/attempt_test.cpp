@@ -4,6 +4,9 @@
 
 #include <string_view>
 
+#include "common/core/error.h"
+#include "common/core/tolerance_error.h"
+
 namespace strake {
 namespace {
 
@@ -70,6 +73,23 @@ TEST(PartFaces, HasThePatienceAskedFor) {
   Attempts attempts({8, 7, 9, 8, 0});
   EXPECT_EQ(attempts.part(100, 2).places.size(), 7u);
   EXPECT_EQ(attempts.again(), 2u);
+}
+
+/// Neither takes away what there is: a result that was proven is one.
+TEST(PartFaces, KeepsTheBestWhereAnAttemptComesToNothing) {
+  Silence silence;
+  const Session session(silence);
+  const Attempt first{session, session, std::vector<Vec3>(8, Vec3::Zero()), false};
+  const auto after = [&](const Again& again) {
+    std::size_t kept = 0;
+    const Attempt best =
+        part_faces(first, 100, 5, again, [&](Attempt& attempt) { kept = attempt.places.size(); });
+    EXPECT_EQ(kept, 8u);
+    return best.places.size();
+  };
+  EXPECT_EQ(after([](const Session&, const auto&) -> Attempt { throw ToleranceError("far", {}); }),
+            8u);
+  EXPECT_EQ(after([](const Session&, const auto&) -> Attempt { throw AlgorithmError("odd"); }), 8u);
 }
 
 TEST(PartFaces, GivesUpWhereNothingChangesAnyMore) {

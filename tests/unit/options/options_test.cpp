@@ -28,6 +28,27 @@ void expect_names(const std::string& message, const std::vector<std::string>& pa
   }
 }
 
+TEST(OtherValue, HoldsUntilTheEndOfItsScopeHoweverThatComes) {
+  std::optional<std::int64_t> rounds;
+  const Option option{"rounds", &rounds, "", "", 0, 9};
+  {
+    const OtherValue once(option, "1");
+    EXPECT_EQ(rounds, 1);
+    const OtherValue twice(option, "2");
+    EXPECT_EQ(rounds, 2);
+  }
+  EXPECT_FALSE(rounds.has_value());
+  rounds = 4;
+  try {
+    const OtherValue more(option, "7");
+    throw AlgorithmError("no result");
+  } catch (const AlgorithmError&) {
+    EXPECT_EQ(rounds, 4);
+  }
+  EXPECT_THROW(OtherValue(option, "10"), UsageError);
+  EXPECT_EQ(rounds, 4);
+}
+
 TEST(Length, ReadsSharesAndModelUnits) {
   EXPECT_EQ(Length::parse("0.1%"), (Length{0.001, true}));
   EXPECT_EQ(Length::parse("2.5"), (Length{2.5, false}));

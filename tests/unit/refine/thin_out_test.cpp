@@ -43,6 +43,18 @@ TEST(ThinOut, LeavesOnlyWhatTheDistanceNeeds) {
   }
 }
 
+/// OpenMesh would tell the process's error stream.
+TEST(ThinOut, LeavesWhatIsNoManifoldInSilence) {
+  const std::vector<Vec3> positions = {Vec3(0, 0, 0),  Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(-1, 0, 0),
+                                       Vec3(0, -1, 0), Vec3(1, 1, 1), Vec3(-1, 1, 1)};
+  const Triangles fan_and_more = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}, {0, 5, 6}};
+  testing::internal::CaptureStderr();
+  const Triangles left =
+      thin_out(positions, fan_and_more, std::vector<double>(positions.size(), 0.1));
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(left, fan_and_more);
+}
+
 TEST(ThinOut, KeepsWhatStays) {
   const TriMesh mesh = sheet(0).mesh;
   std::vector<double> distance(mesh.positions.size(), 0.05);

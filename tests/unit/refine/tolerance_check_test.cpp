@@ -7,6 +7,7 @@
 #include <memory>
 #include <random>
 
+#include "common/core/error.h"
 #include "common/geometry/cell_error/cell_error.h"
 #include "tests/support/mesh_support.h"
 #include "tests/support/result_cases.h"
@@ -182,6 +183,22 @@ TEST_P(ToleranceProofOf, ResultsInARowFindsWhatNewChecksFind) {
 INSTANTIATE_TEST_SUITE_P(Shifts, ToleranceProofOf, testing::Values(0.0, 0.03));
 
 /// Two faces of the input under 64 of the result: each of its inner vertices in turn is lifted.
+TEST(ToleranceProof, CanBeCancelledBetweenChecks) {
+  class Cancel : public Observer {
+   public:
+    void report(std::string_view phase, double /*fraction*/) override {
+      if (phase == "proving") throw Interrupted();
+    }
+  };
+  const Case c = grid(4, 1, [](double, double) { return 0.0; });
+  ToleranceProof proof(std::make_shared<const InputSurface>(c.mesh), 0.01);
+  const ComparedSurfaces surfaces(proof.input(), c.quads);
+  EXPECT_TRUE(proof.check(surfaces).empty());
+  Cancel cancel;
+  proof.report_to(cancel, "proving");
+  EXPECT_THROW(proof.check(surfaces), Interrupted);
+}
+
 TEST(ToleranceProof, WatchesAllThatAFaceIsNearTo) {
   const auto flat = [](double, double) { return 0.0; };
   Case c = grid(8, 8, flat);
