@@ -16,6 +16,7 @@
 #include "stages/import/carry.h"
 #include "stages/import/features.h"
 #include "stages/import/flat_faces.h"
+#include "stages/import/noise.h"
 #include "stages/import/sheets.h"
 #include "stages/import/soup.h"
 #include "stages/import/triangulate.h"
@@ -155,6 +156,18 @@ void report_features(const import::FeatureCounts& counts, Report& report) {
   report.set("features.corners", counts.corners);
 }
 
+void report_noise(const TriMesh& mesh, Report& report) {
+  const import::Noise noise = import::measure_noise(mesh);
+  report.set("noise.median_bend_deg", noise.median_bend_deg);
+  report.set("noise.to_and_fro", noise.to_and_fro);
+  if (!noise.is_much()) return;
+  report.warn(fmt::format(
+      "the surface is rough: half of it is bent by more than {:.0f} degrees from face to "
+      "face, to and fro, so directions of curvature mean little; --denoise 10 takes "
+      "noise of a scan off",
+      noise.median_bend_deg));
+}
+
 FeatureRules feature_rules(const ImportOptions& options, double diagonal) {
   const auto wants = [&](const char* kind) {
     return options.attribute_features == "all" || options.attribute_features == kind;
@@ -225,6 +238,11 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
   import::carry_attributes(soup, result.mesh);
   result.mesh.origin = frame.origin;
   result.mesh.diagonal = frame.diagonal;
+  if (options.denoise > 0) {
+    observer.report("taking noise off", 0.6);
+    const double moved = import::take_noise_off(result.mesh, options.denoise);
+    result.report.set("noise.moved_rms_share", moved / result.mesh.diagonal);
+  }
   observer.report("finding features", 0.7);
   const import::FeatureCounts features = import::find_features(
       result.mesh, feature_rules(options, result.mesh.diagonal), soup, listed);
@@ -238,6 +256,7 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
   result.report.set("input.faces", soup.face_count());
   report_census(result.mesh, result.report);
   report_repairs(repairs, removed_percent, frame.diagonal, result.report);
+  report_noise(result.mesh, result.report);
   report_features(features, result.report);
   warn_of_many_seams(result.mesh, features, result.report);
   report_attributes(result.mesh.attributes, result.report);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -20,7 +21,8 @@ struct ImportOptions {
   bool no_attributes = false;                ///< leave out colours, texture coordinates and labels
   /// Largest share of the area that repairs may take away. Not counted is what is there twice.
   double most_removed_percent = 10;
-  bool strict = false;  ///< refuse what would have to be repaired
+  bool strict = false;       ///< refuse what would have to be repaired
+  std::int64_t denoise = 0;  ///< rounds in which noise is taken off
 
   OptionList declare();
 };

@@ -28,6 +28,13 @@ OptionList ImportOptions::declare() {
        .target = &no_attributes,
        .unit = "",
        .help = "Leave out colours, texture coordinates and labels of faces."},
+      {.name = "denoise",
+       .target = &denoise,
+       .unit = "N",
+       .help = "Rounds of smoothing that take noise off a scan, 10 for much of it; creases become "
+               "round, and distances are those to the smoothed surface.",
+       .min = 0,
+       .max = 1000},
       {.name = "most-removed",
        .target = &most_removed_percent,
        .unit = "%",

@@ -1,0 +1,139 @@
+#include "stages/import/noise.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+#include <utility>
+
+#include "common/geometry/samples/samples.h"
+#include "stages/import/import.h"
+#include "tests/support/mesh_support.h"
+
+namespace strake {
+namespace {
+
+using import::measure_noise;
+using import::take_noise_off;
+
+PolyMesh sample(SampleKind kind, std::int64_t faces) {
+  SampleOptions options;
+  options.faces = faces;
+  return make_sample(kind, options);
+}
+
+/// Moves all vertices at random, by `share` of the mean edge length in each direction.
+void add_noise(PolyMesh& mesh, double share) {
+  std::mt19937 random(1);
+  const double length = support::mean_edge_length(support::plain_tri_mesh(mesh));
+  std::normal_distribution<double> noise(0, share * length);
+  for (Vec3& p : mesh.positions) {
+    for (int axis = 0; axis < 3; ++axis) p[axis] += noise(random);
+  }
+}
+
+struct Radii {
+  double mean = 0;
+  double deviation = 0;
+};
+
+Radii radii_of(const TriMesh& mesh) {
+  Radii radii;
+  const auto count = static_cast<double>(mesh.positions.size());
+  for (const Vec3& p : mesh.positions) radii.mean += p.norm() / count;
+  for (const Vec3& p : mesh.positions) {
+    radii.deviation += std::pow(p.norm() - radii.mean, 2) / count;
+  }
+  radii.deviation = std::sqrt(radii.deviation);
+  return radii;
+}
+
+TEST(Noise, ShowsInBendsToAndFro) {
+  for (const SampleKind kind : {SampleKind::sphere, SampleKind::torus, SampleKind::part}) {
+    PolyMesh mesh = sample(kind, 8000);
+    EXPECT_FALSE(measure_noise(support::plain_tri_mesh(mesh)).is_much());
+    add_noise(mesh, 0.3);
+    EXPECT_TRUE(measure_noise(support::plain_tri_mesh(mesh)).is_much());
+  }
+  // Coarse, not rough: all edges are bent to the same side.
+  PolyMesh octahedron;
+  octahedron.positions = {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0),
+                          Vec3(0, -1, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)};
+  for (const Index top : {4, 5}) {
+    for (const auto& [a, b] : {std::pair{0, 2}, {2, 1}, {1, 3}, {3, 0}}) {
+      octahedron.add_face(top == 4 ? std::array<Index, 3>{a, b, 4} : std::array<Index, 3>{b, a, 5});
+    }
+  }
+  const import::Noise coarse = measure_noise(support::plain_tri_mesh(octahedron));
+  EXPECT_NEAR(coarse.median_bend_deg, 70.5, 0.11);  // 180 less the dihedral angle
+  EXPECT_NEAR(coarse.to_and_fro, 0, 1e-12);
+  EXPECT_FALSE(coarse.is_much());
+}
+
+TEST(Noise, IsMeasuredAlikeInAnyUnit) {
+  PolyMesh mesh = sample(SampleKind::torus, 2000);
+  add_noise(mesh, 0.2);
+  const import::Noise here = measure_noise(support::plain_tri_mesh(mesh));
+  const import::Noise there = measure_noise(support::plain_tri_mesh(
+      support::transformed(mesh, 1e3 * support::oblique_rotation(), Vec3(1, 2, 3))));
+  EXPECT_NEAR(there.median_bend_deg, here.median_bend_deg, 0.11);
+  EXPECT_NEAR(there.to_and_fro, here.to_and_fro, 1e-9);
+}
+
+TEST(TakeNoiseOff, LeavesTheShape) {
+  PolyMesh noisy = sample(SampleKind::sphere, 20000);
+  const Radii exact = radii_of(support::plain_tri_mesh(noisy));
+  add_noise(noisy, 0.3);
+  TriMesh mesh = support::plain_tri_mesh(noisy);
+  const Radii before = radii_of(mesh);
+  const double moved = take_noise_off(mesh, 20);
+  const Radii after = radii_of(mesh);
+  EXPECT_LT(after.deviation, before.deviation / 2.5);
+  EXPECT_NEAR(after.mean, exact.mean, 0.002 * exact.mean);
+  EXPECT_GT(moved, before.deviation);
+  EXPECT_LT(moved, 3 * before.deviation);
+  EXPECT_FALSE(measure_noise(mesh).is_much());
+}
+
+TEST(TakeNoiseOff, DoesLittleToASmoothSurface) {
+  TriMesh mesh = support::plain_tri_mesh(sample(SampleKind::sphere, 20000));
+  const Radii before = radii_of(mesh);
+  take_noise_off(mesh, 20);
+  EXPECT_NEAR(radii_of(mesh).mean, before.mean, 1e-3 * before.mean);
+}
+
+/// The boundary of a plane stays in it, and about where it is.
+TEST(TakeNoiseOff, KeepsBoundaries) {
+  const TriMesh before = support::plain_tri_mesh(sample(SampleKind::plane, 5000));
+  TriMesh mesh = before;
+  take_noise_off(mesh, 20);
+  const double edge = support::mean_edge_length(before);
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    EXPECT_EQ(mesh.positions[v].z(), before.positions[v].z());
+  }
+  for (Index h = 0; h < before.halfedge_count(); ++h) {
+    if (!before.is_boundary(h)) continue;
+    const Index v = before.from(h);
+    EXPECT_LT((mesh.positions[v] - before.positions[v]).norm(), edge);
+  }
+}
+
+TEST(TakeNoiseOff, IsAskedForByAWarningAndAnOption) {
+  PolyMesh noisy = sample(SampleKind::torus, 8000);
+  add_noise(noisy, 0.3);
+  SilentObserver observer;
+  ImportOptions options;
+  const auto is_warned_of = [&] {
+    const auto warnings = import_mesh(noisy, options, observer).report.warnings();
+    return std::ranges::any_of(
+        warnings, [](const std::string& w) { return w.find("--denoise") != std::string::npos; });
+  };
+  EXPECT_TRUE(is_warned_of());
+  options.denoise = 10;
+  EXPECT_FALSE(is_warned_of());
+}
+
+}  // namespace
+}  // namespace strake
