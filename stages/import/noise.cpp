@@ -10,8 +10,8 @@
 namespace strake::import {
 namespace {
 
-/// Of the bench's scans the roughest has 11 degrees and 0.64, and a coarse control mesh 20 and 0.59;
-/// with noise of a fifth of the edges' length a scan has 25 and 0.85.
+/// Of the bench's scans the roughest has 11 degrees and 0.64, and a coarse control mesh 20 and
+/// 0.59; with noise of a fifth of the edges' length a scan has 25 and 0.85.
 constexpr double kMuchBend = 20;
 constexpr double kMuchToAndFro = 0.75;
 constexpr std::size_t kBinsPerDegree = 10;
@@ -29,7 +29,8 @@ struct Bends {
     }
   }
 
-  /// Calls use(half-edge, bend in degrees, area of both faces, vector along it) for each inner edge.
+  /// Calls use(half-edge, bend in degrees, area of both faces, vector along it) for each inner
+  /// edge.
   template <class Use>
   void for_each(const Use& use) const {
     for (Index h = 0; h < mesh_.halfedge_count(); ++h) {
@@ -41,8 +42,8 @@ struct Bends {
       const double length = along.norm();
       const double area = (left.norm() + right.norm()) / 2;
       if (!(length > 0) || !(left.norm() > 0) || !(right.norm() > 0)) continue;
-      const double bend =
-          std::atan2(left.cross(right).dot(along) / length, left.dot(right)) * 180 / std::numbers::pi;
+      const double bend = std::atan2(left.cross(right).dot(along) / length, left.dot(right)) * 180 /
+                          std::numbers::pi;
       use(h, bend, area, length);
     }
   }

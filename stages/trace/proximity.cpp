@@ -8,6 +8,9 @@
 namespace strake {
 namespace {
 
+/// Share of the largest coordinate by which places may be rounded.
+constexpr double kRounding = 1e-12;
+
 double squared_distance(const Vec3& p, const Vec3& a, const Vec3& b) {
   return way_to_segment(p, a, b).squaredNorm();
 }
@@ -40,11 +43,20 @@ ProximityIndex::ProximityIndex(const FaceBlocks& blocks, const std::vector<std::
   for (Index block = 0; block < blocks.count(); ++block) {
     for (const Index f : blocks.faces(block)) {
       for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-        if (barriers[h] != 0) barriers_.push_back(h);
+        if (barriers[h] != 0) add_barrier(h);
       }
     }
     first_barrier_.push_back(static_cast<Index>(barriers_.size()));
   }
+}
+
+void ProximityIndex::add_barrier(Index halfedge) {
+  const TriMesh& mesh = blocks_.mesh();
+  const Vec3& a = mesh.positions[mesh.from(halfedge)];
+  const Vec3& b = mesh.positions[mesh.to(halfedge)];
+  const double largest = std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff());
+  barriers_.push_back({a, b, (b - a).normalized(), (a + b) / 2,
+                       (b - a).norm() / 2 + kRounding * (largest + (b - a).norm())});
 }
 
 void ProximityIndex::insert(std::span<const LineSegment> segments, Index line) {
@@ -100,8 +112,8 @@ ProximityHit ProximityProbe::query(const ProximityQuery& query) {
       if (query.is_alike(segment)) consider(segment.a, segment.b, segment.line);
     });
     if (query.ignore_barriers) continue;
-    index_.for_barriers(block, [&](const Vec3& a, const Vec3& b) {
-      if (query.is_alike((b - a).normalized())) consider(a, b, kNone);
+    index_.for_barriers(block, query.point, query.distance, [&](const auto& barrier) {
+      if (query.is_alike(barrier.direction)) consider(barrier.a, barrier.b, kNone);
     });
   }
   hit.distance = std::sqrt(best);
@@ -124,8 +136,8 @@ std::pair<double, double> ProximityProbe::distances_beside(const ProximityQuery&
                                    consider(segment.a, segment.b);
                                  }
                                });
-    index_.for_barriers(block, [&](const Vec3& a, const Vec3& b) {
-      if (query.is_alike((b - a).normalized())) consider(a, b);
+    index_.for_barriers(block, query.point, query.distance, [&](const auto& barrier) {
+      if (query.is_alike(barrier.direction)) consider(barrier.a, barrier.b);
     });
   }
   return nearest;

@@ -104,19 +104,30 @@ class ProximityIndex {
   [[nodiscard]] const SegmentLists& segments() const { return segments_; }
   [[nodiscard]] const FaceBlocks& blocks() const { return blocks_; }
 
-  /// Calls use(a, b) with the ends of the barrier edges around a block.
+  /// A feature or boundary edge.
+  struct Barrier {
+    Vec3 a;
+    Vec3 b;
+    Vec3 direction;  ///< unit
+    Vec3 middle;
+    double half_length = 0;  ///< rounded up
+  };
+  /// Calls use(barrier) for those around a block that may be nearer to a point than `distance`.
   template <class Use>
-  void for_barriers(Index block, const Use& use) const {
-    const TriMesh& mesh = blocks_.mesh();
+  void for_barriers(Index block, const Vec3& point, double distance, const Use& use) const {
     for (Index at = first_barrier_[block]; at < first_barrier_[block + 1]; ++at) {
-      use(mesh.positions[mesh.from(barriers_[at])], mesh.positions[mesh.to(barriers_[at])]);
+      const Barrier& barrier = barriers_[at];
+      const double reach = distance + barrier.half_length;
+      if ((barrier.middle - point).squaredNorm() <= reach * reach) use(barrier);
     }
   }
 
  private:
+  void add_barrier(Index halfedge);
+
   const FaceBlocks& blocks_;
   std::vector<Index> first_barrier_;  ///< [B + 1] into barriers_
-  std::vector<Index> barriers_;       ///< half-edges
+  std::vector<Barrier> barriers_;
   SegmentLists segments_;
 };
 

@@ -15,8 +15,9 @@ namespace {
 constexpr Index kMostAttempts = 8;
 /// Faces of all attempts together; one is made of any number.
 constexpr Index kMostFaces = 200000;
-/// Where more faces cross the shape is finer than its lines all over.
+/// Where more faces cross, or a larger share of all, the shape is finer than its lines all over.
 constexpr std::size_t kMostPlaces = 1000;
+constexpr double kMostShare = 0.3;
 
 /// One more attempt; nothing where it comes to no result, or to none within a tolerance.
 std::optional<Attempt> attempt_again(const Again& again, Session session,
@@ -37,8 +38,10 @@ Attempt part_faces(const Attempt& first, Index faces, int patience, const Again&
   Attempt best = first;
   Attempt last = first;
   bool is_last_best = true;
+  const auto most =
+      std::min(kMostPlaces, static_cast<std::size_t>(kMostShare * static_cast<double>(faces)));
   const auto is_worth_it = [&] {
-    return patience > 0 && !best.places.empty() && best.places.size() <= kMostPlaces;
+    return patience > 0 && !best.places.empty() && best.places.size() <= most;
   };
   const Index attempts =
       std::clamp<Index>(kMostFaces / std::max<Index>(faces, 1), 1, kMostAttempts);

@@ -415,10 +415,10 @@ void warn_of_excess(Session& session) {
   const Index given = session.get<TriMesh>("mesh").vertex_count();
   const Index made = session.get<QuadMesh>("refined").mesh.vertex_count();
   if (made <= kExcessive * given) return;
-  session.say(
-      fmt::format("warning: the result has {} vertices, the input {}: its own faces are coarse "
-                  "against the tolerance; a larger one takes fewer",
-                  made, given));
+  session.say(fmt::format(
+      "warning: the result has {} vertices, the input {}: its own faces are larger than "
+      "cells may be; a larger --tolerance takes fewer, on flats a larger --max-spacing",
+      made, given));
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ TEST(PartFaces, EndsWhereNoFacesCross) {
 
 TEST(PartFaces, GoesOnForEightAttemptsThatHelp) {
   Attempts attempts({512, 256, 128, 64, 32, 16, 8, 4, 2, 1});
-  EXPECT_EQ(attempts.part(100).places.size(), 2u);
+  EXPECT_EQ(attempts.part(10'000).places.size(), 2u);
   EXPECT_EQ(attempts.again(), 8u);
 }
 
@@ -67,6 +67,12 @@ TEST(PartFaces, GivesUpAfterFiveThatDoNotAndKeepsTheBest) {
   EXPECT_EQ(attempts.part(100).places.size(), 7u);
   EXPECT_EQ(attempts.again(), 5u);
   EXPECT_EQ(attempts.kept(), 7u);
+}
+
+TEST(PartFaces, TriesNothingWhereMostFacesCross) {
+  Attempts attempts({301, 0});
+  EXPECT_EQ(attempts.part(1000).places.size(), 301u);
+  EXPECT_EQ(attempts.again(), 0u);
 }
 
 TEST(PartFaces, HasThePatienceAskedFor) {
@@ -94,7 +100,7 @@ TEST(PartFaces, KeepsTheBestWhereAnAttemptComesToNothing) {
 
 TEST(PartFaces, GivesUpWhereNothingChangesAnyMore) {
   Attempts attempts({50, 60, 60, 0});
-  EXPECT_EQ(attempts.part(100).places.size(), 50u);
+  EXPECT_EQ(attempts.part(1000).places.size(), 50u);
   EXPECT_EQ(attempts.again(), 2u);
   EXPECT_EQ(attempts.kept(), 50u);
 }

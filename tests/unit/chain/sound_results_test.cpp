@@ -254,8 +254,8 @@ TEST(Remesh, SaysWhereAToleranceTakesFarMoreVerticesThanTheInputHas) {
     remesh({mesh, {}, {}, {}}, options, listener);
     return listener.said;
   };
-  EXPECT_NE(said_with(500).find("a larger one takes fewer"), std::string::npos);
-  EXPECT_EQ(said_with(5000).find("a larger one takes fewer"), std::string::npos);
+  EXPECT_NE(said_with(500).find("a larger --tolerance takes fewer"), std::string::npos);
+  EXPECT_EQ(said_with(5000).find("a larger --tolerance takes fewer"), std::string::npos);
 }
 
 }  // namespace

@@ -59,8 +59,8 @@ TEST(Noise, ShowsInBendsToAndFro) {
   }
   // Coarse, not rough: all edges are bent to the same side.
   PolyMesh octahedron;
-  octahedron.positions = {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0),
-                          Vec3(0, -1, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)};
+  octahedron.positions = {Vec3(1, 0, 0),  Vec3(-1, 0, 0), Vec3(0, 1, 0),
+                          Vec3(0, -1, 0), Vec3(0, 0, 1),  Vec3(0, 0, -1)};
   for (const Index top : {4, 5}) {
     for (const auto& [a, b] : {std::pair{0, 2}, {2, 1}, {1, 3}, {3, 0}}) {
       octahedron.add_face(top == 4 ? std::array<Index, 3>{a, b, 4} : std::array<Index, 3>{b, a, 5});
