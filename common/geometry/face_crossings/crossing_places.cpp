@@ -88,8 +88,9 @@ std::vector<Vec3> CrossingPlaces::of(const PolyMesh& result) {
 bool CrossingPlaces::is_looked_at(const Place& place) const {
   bool is_within = looks_.size() > kMostLooks;
   const BoxTree::Box box = box_around(place.middle, place.reach);
-  for (const auto& [boxes, tree] : looks_) {
-    tree.visit_touching(box, [&](Index i) { is_within = is_within || boxes[i].contains(box); });
+  for (const Look& look : looks_) {
+    look.tree.visit_touching(
+        box, [&](Index i) { is_within = is_within || look.boxes[i].contains(box); });
   }
   return is_within;
 }
