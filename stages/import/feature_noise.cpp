@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <vector>
 
 #include "stages/import/feature_graph.h"
@@ -164,9 +165,10 @@ Index drop_loose_ends(TriMesh& mesh) {
   return dropped;
 }
 
-/// Takes the flags off connected pieces too short to be features.
-Index drop_short_pieces(TriMesh& mesh) {
-  const std::vector<Index> degree = barrier_degrees(mesh);
+/// Calls drops(piece) for the half-edges of each connected piece, one an edge.
+/// \return edges of those for which it holds, whose flags are taken
+template <class Drops>
+Index drop_pieces(TriMesh& mesh, const Drops& drops) {
   std::vector<std::uint8_t> seen(mesh.halfedge_count(), 0);
   Index dropped = 0;
   std::vector<Index> piece;
@@ -174,14 +176,8 @@ Index drop_short_pieces(TriMesh& mesh) {
     if (mesh.is_feature[seed] == 0 || seen[seed] != 0) continue;
     piece.assign(1, seed);
     seen[seed] = seen[mesh.twin[seed]] = 1;
-    double length = 0;
-    bool is_simple_loop = true;
-    bool meets_boundary = false;
     for (std::size_t i = 0; i < piece.size(); ++i) {
-      length += edge_vector(mesh, piece[i]).norm();
       for (const Index v : {mesh.from(piece[i]), mesh.to(piece[i])}) {
-        is_simple_loop = is_simple_loop && degree[v] == 2;
-        meets_boundary = meets_boundary || mesh.is_boundary(mesh.vertex_out[v]);
         for_each_outgoing(mesh, v, [&](Index h) {
           if (mesh.is_feature[h] == 0 || seen[h] != 0) return;
           seen[h] = seen[mesh.twin[h]] = 1;
@@ -189,11 +185,95 @@ Index drop_short_pieces(TriMesh& mesh) {
         });
       }
     }
-    if (length >= kShortest * mesh.diagonal || is_simple_loop || meets_boundary) continue;
+    if (!drops(piece)) continue;
     for (const Index h : piece) set_feature(mesh, h, false);
     dropped += static_cast<Index>(piece.size());
   }
   return dropped;
+}
+
+/// Takes the flags off connected pieces too short to be features.
+Index drop_short_pieces(TriMesh& mesh) {
+  const std::vector<Index> degree = barrier_degrees(mesh);
+  return drop_pieces(mesh, [&](const std::vector<Index>& piece) {
+    double length = 0;
+    bool is_simple_loop = true;
+    bool meets_boundary = false;
+    for (const Index h : piece) {
+      length += edge_vector(mesh, h).norm();
+      for (const Index v : {mesh.from(h), mesh.to(h)}) {
+        is_simple_loop = is_simple_loop && degree[v] == 2;
+        meets_boundary = meets_boundary || mesh.is_boundary(mesh.vertex_out[v]);
+      }
+    }
+    return length < kShortest * mesh.diagonal && !is_simple_loop && !meets_boundary;
+  });
+}
+
+/// Edges of a piece, at most, that may be a lump of noise.
+constexpr std::size_t kLargestLump = 40;
+/// Share of the bends in a lump that is left of their sum, at most, and likewise around it.
+constexpr double kMostLeft = 0.5;
+/// Mean bend around it, at least, and share of the edges there that are bent at all: on a designed
+/// part, where walls may be bent both ways, some are in flats.
+constexpr double kLeastAround = 1 * kDegree;
+constexpr double kFlat = 0.3 * kDegree;
+constexpr double kMostFlat = 0.2;
+
+/// Sums of bends over edges, weighted with their lengths.
+struct BendSum {
+  double sum = 0;
+  double size = 0;
+  double length = 0;
+  double flat = 0;  ///< of the length
+
+  void add(const TriMesh& mesh, Index h) {
+    const Index twin = mesh.twin[h];
+    if (twin == kNone) return;
+    const auto normal = [&](Index f) {
+      const auto& [a, b, c] = mesh.faces[f];
+      return Vec3(
+          (mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a]));
+    };
+    const Vec3 left = normal(TriMesh::face_of(h));
+    const Vec3 right = normal(TriMesh::face_of(twin));
+    const Vec3 along = edge_vector(mesh, h);
+    const double way = along.norm();
+    if (!(way > 0)) return;
+    const double bend = std::atan2(left.cross(right).dot(along) / way, left.dot(right));
+    sum += way * bend;
+    size += way * std::abs(bend);
+    length += way;
+    if (std::abs(bend) < kFlat) flat += way;
+  }
+  [[nodiscard]] bool cancels() const { return std::abs(sum) < kMostLeft * size; }
+};
+
+/// Takes the flags off small pieces whose edges are bent to and fro, amid edges that are, too.
+///
+/// Single vertices that noise has moved far have sharp edges around them however fine the rest is.
+/// A step or an embossed letter is bent both ways as well, but stands on a surface that is not.
+Index drop_lumps(TriMesh& mesh) {
+  return drop_pieces(mesh, [&](const std::vector<Index>& piece) {
+    if (piece.size() > kLargestLump) return false;
+    BendSum own;
+    std::set<Index> around;
+    for (const Index h : piece) {
+      own.add(mesh, h);
+      for (const Index v : {mesh.from(h), mesh.to(h)}) {
+        for_each_outgoing(mesh, v, [&](Index out) {
+          for_each_outgoing(mesh, mesh.to(out), [&](Index e) {
+            if (mesh.is_feature[e] == 0) around.insert(mesh.edge_of(e));
+          });
+        });
+      }
+    }
+    if (!own.cancels()) return false;
+    BendSum ground;
+    for (const Index e : around) ground.add(mesh, e);
+    return ground.size > kLeastAround * ground.length && ground.cancels() &&
+           ground.flat < kMostFlat * ground.length;
+  });
 }
 
 }  // namespace
@@ -203,6 +283,7 @@ Index drop_noise(TriMesh& mesh, const std::vector<float>& roughness) {
   while (const Index more = NoisyLines(mesh, roughness).drop()) dropped += more;
   dropped += drop_loose_ends(mesh);
   dropped += drop_short_pieces(mesh);
+  dropped += drop_lumps(mesh);
   return dropped;
 }
 

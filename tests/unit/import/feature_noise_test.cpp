@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <random>
 
 #include "stages/import/feature_graph.h"
 #include "tests/unit/import/shapes.h"
@@ -128,5 +129,28 @@ TEST(FeatureNoise, WhatRunsAroundOneFaceIsASpeck) {
   EXPECT_EQ(left_on(0, mesh, face), 0);
 }
 
-}  // namespace strake
+/// Feature edges of a square of 24 x 24 cells with a spike in its middle, on ground that is moved
+/// up and down at random by this share of a cell.
+Index edges_of_spike(double noise) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> height(-noise, noise);
+  PolyMesh mesh = shapes::grid(24, 24, [](double, double) { return 0.0; });
+  for (Vec3& p : mesh.positions) {
+    const bool is_spike = (p - Vec3(0.5, 0.5, 0)).norm() < 1e-9;
+    p.z() = (is_spike ? 1.0 : height(random)) / 24;
+  }
+  const TriMesh imported = shapes::imported(mesh).mesh;
+  Index edges = 0;
+  for (Index h = 0; h < imported.halfedge_count(); ++h) {
+    edges += imported.is_feature[h] != 0 && imported.twin[h] < h ? 1 : 0;
+  }
+  return edges;
+}
+
+TEST(FeatureNoise, IsALumpAmidNoiseButNoSpikeOnAFlat) {
+  EXPECT_GE(edges_of_spike(0), 6);
+  EXPECT_EQ(edges_of_spike(0.05), 0);
+}
+
+}  // namespace
 }  // namespace strake
