@@ -85,5 +85,29 @@ TEST(CrossingPlaces, AreNotWhereEitherFaceIsNearACrossingOfTheInput) {
   EXPECT_TRUE(CrossingPlaces(surface).of(result).empty());
 }
 
+/// The input is looked at around one place after the other, and at last everywhere.
+TEST(CrossingPlaces, AreTheSameHoweverManyWereAskedForBefore) {
+  constexpr int kPlaces = 14;
+  const auto middle = [](int i) { return Vec3(10 * i, 0, 0); };
+  const auto crosses_itself = [](int i) { return i % 3 == 0; };
+  PolyMesh all;
+  for (int i = 0; i < kPlaces; ++i) {
+    const PolyMesh two = two_squares(middle(i), crosses_itself(i) ? -0.3 : 0.1);
+    for (Index f = 0; f < two.face_count(); ++f) {
+      const auto face = two.face(f);
+      add_square(all, two.positions[face[0]], two.positions[face[1]], two.positions[face[2]],
+                 two.positions[face[3]]);
+    }
+  }
+  const TriMesh surface = triangles_of(all);
+  CrossingPlaces crossing(surface);
+  for (const int round : {0, 1}) {
+    for (int i = 0; i < kPlaces; ++i) {
+      EXPECT_EQ(crossing.of(two_squares(middle(i), -0.3)).empty(), crosses_itself(i))
+          << "place " << i << ", round " << round;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace strake

@@ -152,5 +152,5 @@ TEST(FeatureNoise, IsALumpAmidNoiseButNoSpikeOnAFlat) {
   EXPECT_EQ(edges_of_spike(0.05), 0);
 }
 
-}  // namespace
+}  // namespace strake
 }  // namespace strake
