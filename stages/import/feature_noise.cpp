@@ -212,8 +212,9 @@ Index drop_short_pieces(TriMesh& mesh) {
 
 /// Edges of a piece, at most, that may be a lump of noise.
 constexpr std::size_t kLargestLump = 40;
-/// Share of the bends in a lump that is left of their sum, at most, and likewise around it.
-constexpr double kMostLeft = 0.5;
+/// Share of the bends in a lump that is left of their sum, at most, and of those around it.
+constexpr double kMostLeft = 0.3;
+constexpr double kMostLeftAround = 0.35;
 /// Mean bend around it, at least, and share of the edges there that are bent at all: on a designed
 /// part, where walls may be bent both ways, some are in flats.
 constexpr double kLeastAround = 1 * kDegree;
@@ -246,7 +247,7 @@ struct BendSum {
     length += way;
     if (std::abs(bend) < kFlat) flat += way;
   }
-  [[nodiscard]] bool cancels() const { return std::abs(sum) < kMostLeft * size; }
+  [[nodiscard]] bool cancels(double most_left) const { return std::abs(sum) < most_left * size; }
 };
 
 /// Takes the flags off small pieces whose edges are bent to and fro, amid edges that are, too.
@@ -268,10 +269,10 @@ Index drop_lumps(TriMesh& mesh) {
         });
       }
     }
-    if (!own.cancels()) return false;
+    if (!own.cancels(kMostLeft)) return false;
     BendSum ground;
     for (const Index e : around) ground.add(mesh, e);
-    return ground.size > kLeastAround * ground.length && ground.cancels() &&
+    return ground.size > kLeastAround * ground.length && ground.cancels(kMostLeftAround) &&
            ground.flat < kMostFlat * ground.length;
   });
 }

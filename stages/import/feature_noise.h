@@ -20,10 +20,11 @@ namespace strake::import {
 ///
 /// Then loose ends shorter than 2 % of the diagonal are cut off, and connected pieces with a total
 /// length below that are dropped, except for simple closed lines and what reaches the boundary. At
-/// last pieces of at most 40 edges go whose bends cancel to half of their sizes, where those of the
-/// edges around them do so, too, are a degree or more in the mean, and few are flat: lumps of
-/// noise. \param roughness  [3F] of feature edges, as `find_features` has it, radians \return edges
-/// whose flag was taken
+/// last pieces of at most 40 edges go whose bends cancel to 0.3 of their sizes, where those of the
+/// edges around them do so to 0.35, are a degree or more in the mean, and few are flat: lumps of
+/// noise.
+/// \param roughness  [3F] of feature edges, as `find_features` has it, radians
+/// \return edges whose flag was taken
 Index drop_noise(TriMesh& mesh, const std::vector<float>& roughness);
 
 }  // namespace strake::import

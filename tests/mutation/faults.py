@@ -369,7 +369,7 @@ FAULTS = [
           "  dropped += drop_lumps(mesh);\n", "", "import_tests", "^FeatureNoise"),
     Fault("a spike on a flat is a lump of noise",
           "stages/import/feature_noise.cpp",
-          "return ground.size > kLeastAround * ground.length && ground.cancels() &&\n           ground.flat < kMostFlat * ground.length;", "return true;",
+          "return ground.size > kLeastAround * ground.length && ground.cancels(kMostLeftAround) &&\n           ground.flat < kMostFlat * ground.length;", "return true;",
           "import_tests", "^FeatureNoise"),
     Fault("what is coarse is taken for noisy",
           "stages/import/noise.cpp",
