@@ -50,14 +50,8 @@ TEST(CrossingPlaces, AreTheMiddlesOfFacesThatCross) {
 }
 
 TEST(CrossingPlaces, AreNotWhereTheInputCrossesItself) {
-  PolyMesh both = two_squares(Vec3::Zero(), -0.3);
-  const PolyMesh far = two_squares(kHere, 0.1);
-  for (Index f = 0; f < far.face_count(); ++f) {
-    const auto face = far.face(f);
-    add_square(both, far.positions[face[0]], far.positions[face[1]], far.positions[face[2]],
-               far.positions[face[3]]);
-  }
-  const TriMesh surface = triangles_of(both);
+  const TriMesh surface =
+      triangles_of(support::together(two_squares(Vec3::Zero(), -0.3), two_squares(kHere, 0.1)));
   CrossingPlaces crossing(surface);
   EXPECT_TRUE(crossing.of(two_squares(Vec3::Zero(), -0.3)).empty());
   EXPECT_EQ(crossing.of(two_squares(kHere, -0.3)).size(), 2u);
@@ -92,12 +86,7 @@ TEST(CrossingPlaces, AreTheSameHoweverManyWereAskedForBefore) {
   const auto crosses_itself = [](int i) { return i % 3 == 0; };
   PolyMesh all;
   for (int i = 0; i < kPlaces; ++i) {
-    const PolyMesh two = two_squares(middle(i), crosses_itself(i) ? -0.3 : 0.1);
-    for (Index f = 0; f < two.face_count(); ++f) {
-      const auto face = two.face(f);
-      add_square(all, two.positions[face[0]], two.positions[face[1]], two.positions[face[2]],
-                 two.positions[face[3]]);
-    }
+    all = support::together(all, two_squares(middle(i), crosses_itself(i) ? -0.3 : 0.1));
   }
   const TriMesh surface = triangles_of(all);
   CrossingPlaces crossing(surface);
