@@ -8,7 +8,9 @@
 #include "common/geometry/carry_attributes.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_topology.h"
+#include "common/geometry/surface_distance/surface_distance.h"
 #include "common/geometry/topology/topology.h"
+#include "stages/mesh/cell_shape.h"
 #include "stages/mesh/flats.h"
 #include "stages/mesh/halfedge_check.h"
 #include "stages/mesh/overlay.h"
@@ -24,8 +26,11 @@ namespace {
 
 /// Edges below this share of the local line distance are contracted.
 constexpr double kShortestEdge = 0.3;
-/// A component whose lines make fewer cells than a tetrahedron has keeps its triangles.
+/// A component whose lines make fewer cells than a tetrahedron has keeps its triangles, and so does
+/// one whose few cells enclose less than this share of its volume: they are folded, or inside out.
 constexpr Index kFewestCells = 4;
+constexpr Index kFewCells = 12;
+constexpr double kLeastVolume = 0.05;
 
 /// What becomes of the triangles of a component: where too few cells are left, the next.
 enum class Triangles : std::uint8_t {
@@ -61,14 +66,30 @@ double wanted_length(const TriMesh& mesh, const LineSet& lines, const PolygonGra
   return std::sqrt(along_min * along_max);
 }
 
+/// Three times the volume, with its sign, of the cone from an apex over a polygon.
+double cone_volume(const Vec3& apex, const Polygon& p) { return (p[0] - apex).dot(vector_area(p)); }
+
 /// Takes the next step, up to `last`, for components that have too few cells to be a surface.
 /// \return whether there were any
 bool find_starved(const TriMesh& mesh, const std::vector<Index>& component,
                   const PolygonGraph& graph, Triangles last, std::vector<Triangles>& triangles) {
   const DartGraph& g = graph.graph();
+  std::vector<Vec3> apex(triangles.size());  // near the component, for tiny ones far away
+  std::vector<double> volume(triangles.size(), 0);
+  for (Index f = 0; f < mesh.face_count(); ++f)
+    apex[component[f]] = mesh.positions[mesh.faces[f][0]];
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    Polygon p;
+    for (const Index v : mesh.faces[f]) p.push_back(mesh.positions[v]);
+    volume[component[f]] += cone_volume(apex[component[f]], p);
+  }
   std::vector<Index> cells(triangles.size(), 0);
+  std::vector<double> enclosed(triangles.size(), 0);
   graph.for_each_cell([&](Index d, const DartLoop& cell) {
-    if (cell.size() > 2) ++cells[component[graph.node(g.from(d)).face]];
+    if (cell.size() < 3) return;
+    const Index c = component[graph.node(g.from(d)).face];
+    ++cells[c];
+    enclosed[c] += cone_volume(apex[c], corner_positions(graph, cell));
   });
   std::vector<char> open(triangles.size(), 0);  // one cell is enough for a surface with boundary
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
@@ -76,7 +97,10 @@ bool find_starved(const TriMesh& mesh, const std::vector<Index>& component,
   }
   bool found = false;
   for (std::size_t c = 0; c < triangles.size(); ++c) {
-    if (triangles[c] == last || cells[c] >= (open[c] != 0 ? 1 : kFewestCells)) continue;
+    const bool is_empty = open[c] == 0 && cells[c] <= kFewCells &&
+                          enclosed[c] * volume[c] < kLeastVolume * volume[c] * volume[c];
+    const bool is_starved = cells[c] < (open[c] != 0 ? 1 : kFewestCells) || is_empty;
+    if (triangles[c] == last || !is_starved) continue;
     triangles[c] = triangles[c] == Triangles::merged ? Triangles::kept : Triangles::held;
     found = true;
   }
@@ -215,20 +239,21 @@ Cells form_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions& o
   Cells cells{cut_out_cells(mesh, lines, component, triangles, cuts, observer), {}, {}, {}, {}};
   cells.cut_pieces = cuts;
   observer.report("simplifying cells", 0.6);
-  cells.simplified = simplify(
-      cells.graph, [&](const SurfaceNode& node) { return local_size(mesh, lines, node); },
-      kShortestEdge);
+  cells.simplified =
+      simplify(cells.graph, [&](const SurfaceNode& node) { return local_size(mesh, lines, node); },
+               {.shortest = kShortestEdge, .corner_distance = options.corner_distance});
   hold_triangles(component, triangles, cells.graph);
+  const SurfaceDistance surface(mesh.positions, mesh.faces);
   cells.split_features = split_crossing_features(cells.graph);
   observer.report("dividing cells", 0.8);
-  cells.divided = partition(cells.graph, most_sides(options));
+  cells.divided = partition(cells.graph, most_sides(options), &surface);
   cells.redrawn_flats = redraw_flats(cells.graph);
   observer.report("pairing odd faces", 0.9);
   cells.paired = pair_odd_faces(
       cells.graph, [&](Index dart) { return wanted_length(mesh, lines, cells.graph, dart); },
-      options.odd_price);
+      options.odd_price, &surface);
   if (options.pure_quads) cells.joined = join_odd_faces(cells.graph);
-  cells.regularised = regularise(cells.graph, options.valence_price);
+  cells.regularised = regularise(cells.graph, options.valence_price, &surface);
   return cells;
 }
 

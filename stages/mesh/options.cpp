@@ -24,6 +24,14 @@ OptionList MeshOptions::declare() {
                "are divided anew to make vertices of four; 0 leaves them.",
        .min = 0,
        .max = 1000},
+      {.name = "corner-distance",
+       .target = &corner_distance,
+       .unit = "",
+       .help = "Corners of feature and boundary lines merge only where that leaves them this near "
+               "to these lines, in wanted edge lengths. strake remesh takes 1 where there are too "
+               "many for a wanted count.",
+       .min = 0,
+       .max = 1},
       {.name = "pure-quads",
        .target = &pure_quads,
        .unit = "",

@@ -33,8 +33,9 @@ struct Change {
 
 class Pairing {
  public:
-  Pairing(PolygonGraph& graph, const EdgeLength& wanted, double price)
-      : graph_(graph), wanted_(wanted), price_(price), claimed_(graph) {}
+  Pairing(PolygonGraph& graph, const EdgeLength& wanted, double price,
+          const SurfaceDistance* surface)
+      : graph_(graph), wanted_(wanted), price_(price), surface_(surface), claimed_(graph) {}
 
   PairingCounts run() {
     for (int round = 0; round < kMostRounds; ++round) {
@@ -101,7 +102,7 @@ class Pairing {
       return kDegreePrice * (degree - 4) * (degree - 4);
     };
     std::optional<Division> division =
-        best_division(graph_, *patch, penalty, std::numeric_limits<double>::infinity());
+        best_division(graph_, *patch, penalty, std::numeric_limits<double>::infinity(), surface_);
     if (!division) return;
     const double gain = division->shape_gain + division->degree_gain + 2 * price_;
     if (!(gain > kLeastGain)) return;
@@ -166,15 +167,17 @@ class Pairing {
   PolygonGraph& graph_;
   const EdgeLength& wanted_;
   double price_;
-  ClaimedNodes claimed_;  ///< in this round
+  const SurfaceDistance* surface_;  ///< not owned
+  ClaimedNodes claimed_;            ///< in this round
   PairingCounts counts_;
 };
 
 }  // namespace
 
-PairingCounts pair_odd_faces(PolygonGraph& graph, const EdgeLength& wanted, double price) {
+PairingCounts pair_odd_faces(PolygonGraph& graph, const EdgeLength& wanted, double price,
+                             const SurfaceDistance* surface) {
   if (!(price > 0)) return {};
-  return Pairing(graph, wanted, price).run();
+  return Pairing(graph, wanted, price, surface).run();
 }
 
 }  // namespace strake

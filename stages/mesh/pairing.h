@@ -1,5 +1,6 @@
 #pragma once
 
+#include "common/geometry/surface_distance/surface_distance.h"
 #include "stages/mesh/chord.h"
 #include "stages/mesh/polygon_graph.h"
 
@@ -18,9 +19,11 @@ struct PairingCounts {
 /// A change is made where the gain in shape and regularity outweighs the distance of the strip's
 /// width from the wanted one.
 /// \pre faces are convex; they stay so
-/// \param wanted  wanted length of an edge
-/// \param price   what a face that is no quad costs, beside shape penalties (see shape_penalty); 0
-///                changes nothing
-PairingCounts pair_odd_faces(PolygonGraph& graph, const EdgeLength& wanted, double price);
+/// \param wanted   wanted length of an edge
+/// \param price    what a face that is no quad costs, beside shape penalties (see shape_penalty); 0
+///                 changes nothing
+/// \param surface  that of the mesh, which edges should be near (see OffSurface); may be nullptr
+PairingCounts pair_odd_faces(PolygonGraph& graph, const EdgeLength& wanted, double price,
+                             const SurfaceDistance* surface = nullptr);
 
 }  // namespace strake

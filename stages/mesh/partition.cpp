@@ -7,6 +7,7 @@
 
 #include "common/geometry/frames.h"
 #include "stages/mesh/cell_shape.h"
+#include "stages/mesh/off_surface.h"
 
 namespace strake {
 namespace {
@@ -59,7 +60,8 @@ class FlatPolygon {
 
 class Partitioner {
  public:
-  Partitioner(PolygonGraph& graph, Index max_sides) : graph_(graph), max_sides_(max_sides) {}
+  Partitioner(PolygonGraph& graph, Index max_sides, const SurfaceDistance* surface)
+      : graph_(graph), max_sides_(max_sides), surface_(surface) {}
 
   PartitionCounts run() {
     separate_pinched();
@@ -120,6 +122,7 @@ class Partitioner {
       any_reflex = any_reflex || reflex[i] != 0;
     }
     const FlatPolygon flat(p, n);
+    const OffSurface off(graph_, cell, surface_);
     if (p.size() > kLargestScored) return shortest_balanced_diagonal(cell, p, flat);
     for (const bool relaxed : {false, true}) {
       double best = std::numeric_limits<double>::infinity();
@@ -135,7 +138,7 @@ class Partitioner {
                       p.begin() + static_cast<std::ptrdiff_t>(j) + 1);
           Polygon two(p.begin() + static_cast<std::ptrdiff_t>(j), p.end());
           two.insert(two.end(), p.begin(), p.begin() + static_cast<std::ptrdiff_t>(i) + 1);
-          double score = shape_penalty(one, n) + shape_penalty(two, n);
+          double score = shape_penalty(one, n) + shape_penalty(two, n) + off.price(p[i], p[j]);
           if (relaxed && !(score < std::numeric_limits<double>::infinity())) {
             // Any division is better than none where a face has too many sides.
             score = 1e6 + (p[i] - p[j]).norm();
@@ -290,13 +293,14 @@ class Partitioner {
 
   PolygonGraph& graph_;
   Index max_sides_;
+  const SurfaceDistance* surface_;  ///< not owned
   PartitionCounts counts_;
 };
 
 }  // namespace
 
-PartitionCounts partition(PolygonGraph& graph, Index max_sides) {
-  return Partitioner(graph, max_sides).run();
+PartitionCounts partition(PolygonGraph& graph, Index max_sides, const SurfaceDistance* surface) {
+  return Partitioner(graph, max_sides, surface).run();
 }
 
 }  // namespace strake

@@ -5,6 +5,7 @@
 
 #include "common/geometry/quad_division.h"
 #include "stages/mesh/cell_shape.h"
+#include "stages/mesh/off_surface.h"
 
 namespace strake {
 namespace {
@@ -14,11 +15,13 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Finds the best division of a patch.
 class Divider {
  public:
-  Divider(const PolygonGraph& graph, const Patch& patch, const DegreePenalty& penalty, double worst)
+  Divider(const PolygonGraph& graph, const Patch& patch, const DegreePenalty& penalty, double worst,
+          const SurfaceDistance* surface)
       : graph_(graph),
         patch_(patch),
         penalty_(penalty),
         worst_(worst),
+        off_(graph, patch.outline, surface),
         p_(corner_positions(graph, patch.outline)) {
     normal_ = vector_area(p_);
     const std::size_t n = p_.size();
@@ -54,6 +57,7 @@ class Divider {
     }
     division.shape_gain = shapes_now();
     for (const auto& [i, a, b, j] : cheapest->quads) division.shape_gain -= quad(i, a, b, j);
+    for (const auto& [i, j] : division.diagonals) division.shape_gain -= off_.price(p_[i], p_[j]);
     return division;
   }
 
@@ -74,12 +78,13 @@ class Divider {
     return penalty <= worst_ ? penalty : kInfinity;
   }
 
-  /// Price of a diagonal for the degrees of its ends; infinite where there is such an edge.
+  /// Price of a diagonal for its place and the degrees of its ends; infinite where there is such an
+  /// edge.
   [[nodiscard]] double diagonal(std::size_t i, std::size_t j) const {
     if (node_at(i) == node_at(j)) return kInfinity;
     const Index other = graph_.find_edge(patch_.outline[i], node_at(j));
     if (other != kNone && !is_inner(other)) return kInfinity;
-    double price = 0;
+    double price = off_.price(p_[i], p_[j]);
     for (const std::size_t end : {i, j}) {
       price += penalty_(patch_.outline[end], base_degree_[end] + 1) -
                penalty_(patch_.outline[end], base_degree_[end]);
@@ -92,7 +97,7 @@ class Divider {
                        [&](Index d) { return DartGraph::edge_of(d) == DartGraph::edge_of(dart); });
   }
 
-  /// Penalty of the cells as they are.
+  /// Penalty of the cells and edges as they are.
   [[nodiscard]] double shapes_now() const {
     double sum = 0;
     std::vector<Index> seen;
@@ -104,6 +109,10 @@ class Divider {
       sum += std::min(shape_penalty(cell, normal_), kWorstShape);
     };
     for (const Index d : patch_.outline) add(d);
+    const DartGraph& g = graph_.graph();
+    for (const Index d : patch_.inner) {
+      sum += off_.price(graph_.position(g.from(d)), graph_.position(g.to(d)));
+    }
     return sum;
   }
 
@@ -113,6 +122,7 @@ class Divider {
   const Patch& patch_;
   const DegreePenalty& penalty_;
   double worst_;
+  OffSurface off_;
   Polygon p_;
   Vec3 normal_ = Vec3::Zero();
   std::vector<Index> base_degree_;  ///< [n] without the edges inside
@@ -162,8 +172,9 @@ std::optional<Patch> join_cells(const PolygonGraph& graph, const std::vector<Ind
 }
 
 std::optional<Division> best_division(const PolygonGraph& graph, const Patch& patch,
-                                      const DegreePenalty& penalty, double worst) {
-  return Divider(graph, patch, penalty, worst).run();
+                                      const DegreePenalty& penalty, double worst,
+                                      const SurfaceDistance* surface) {
+  return Divider(graph, patch, penalty, worst, surface).run();
 }
 
 void divide(PolygonGraph& graph, const Patch& patch, const Division& division) {

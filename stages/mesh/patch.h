@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/geometry/surface_distance/surface_distance.h"
 #include "stages/mesh/polygon_graph.h"
 
 namespace strake {
@@ -26,15 +27,17 @@ using DegreePenalty = std::function<double(Index dart, Index degree)>;
 /// A way to divide a patch into quads.
 struct Division {
   std::vector<std::pair<std::size_t, std::size_t>> diagonals;  ///< positions in the outline
-  double shape_gain = 0;   ///< by how much the shapes of the faces get better
+  double shape_gain = 0;   ///< by how much faces get better shaped, and edges nearer to the surface
   double degree_gain = 0;  ///< likewise, the degrees of the nodes
 };
 
 /// The division of a patch into quads by diagonals that has the best shapes and degrees.
-/// \param worst  no face has a larger penalty than this
+/// \param worst    no face has a larger penalty than this
+/// \param surface  that of the mesh, which edges should be near (see OffSurface); may be nullptr
 /// \return nothing where every division has a reflex corner, a double edge or a vertex of valence 2
 std::optional<Division> best_division(const PolygonGraph& graph, const Patch& patch,
-                                      const DegreePenalty& penalty, double worst);
+                                      const DegreePenalty& penalty, double worst,
+                                      const SurfaceDistance* surface = nullptr);
 
 /// Replaces the edges inside a patch by the diagonals of a division.
 void divide(PolygonGraph& graph, const Patch& patch, const Division& division);

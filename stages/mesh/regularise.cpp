@@ -31,7 +31,8 @@ struct Change {
 
 class Regularising {
  public:
-  Regularising(PolygonGraph& graph, double price) : graph_(graph), price_(price) {}
+  Regularising(PolygonGraph& graph, double price, const SurfaceDistance* surface)
+      : graph_(graph), price_(price), surface_(surface) {}
 
   RegularisingCounts run() {
     active_.assign(graph_.node_count(), 1);
@@ -133,7 +134,7 @@ class Regularising {
     for (const Index cell : cells) {
       worst = std::max(worst, penalty_now(corner_positions(graph_, graph_.cell(cell))));
     }
-    std::optional<Division> division = best_division(graph_, *patch, penalty, worst);
+    std::optional<Division> division = best_division(graph_, *patch, penalty, worst, surface_);
     if (!division || !(division->degree_gain > 0)) return;
     const double gain = division->shape_gain + division->degree_gain;
     if (gain > kLeastGain) found.push_back({gain, std::move(*patch), std::move(*division), kNone});
@@ -238,8 +239,9 @@ class Regularising {
 
   PolygonGraph& graph_;
   double price_;
-  std::vector<char> active_;   ///< [nodes] where the last round changed something
-  std::vector<Index> excess_;  ///< [nodes]
+  const SurfaceDistance* surface_;  ///< not owned
+  std::vector<char> active_;        ///< [nodes] where the last round changed something
+  std::vector<Index> excess_;       ///< [nodes]
   RegularisingCounts counts_;
 };
 
@@ -258,9 +260,9 @@ Index irregularity(const PolygonGraph& graph, Index dart, Index degree) {
   return std::abs(degree - 4);
 }
 
-RegularisingCounts regularise(PolygonGraph& graph, double price) {
+RegularisingCounts regularise(PolygonGraph& graph, double price, const SurfaceDistance* surface) {
   if (!(price > 0)) return {};
-  return Regularising(graph, price).run();
+  return Regularising(graph, price, surface).run();
 }
 
 }  // namespace strake

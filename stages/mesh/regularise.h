@@ -1,5 +1,6 @@
 #pragma once
 
+#include "common/geometry/surface_distance/surface_distance.h"
 #include "stages/mesh/polygon_graph.h"
 
 namespace strake {
@@ -21,8 +22,10 @@ Index irregularity(const PolygonGraph& graph, Index dart, Index degree);
 ///
 /// A change is made where the gain in regularity and shape is positive.
 /// \pre faces are convex; they stay so
-/// \param price  what an edge too many or too few costs, beside shape penalties (see
-///               shape_penalty); 0 changes nothing
-RegularisingCounts regularise(PolygonGraph& graph, double price);
+/// \param price    what an edge too many or too few costs, beside shape penalties (see
+///                 shape_penalty); 0 changes nothing
+/// \param surface  that of the mesh, which edges should be near (see OffSurface); may be nullptr
+RegularisingCounts regularise(PolygonGraph& graph, double price,
+                              const SurfaceDistance* surface = nullptr);
 
 }  // namespace strake

@@ -6,6 +6,8 @@
 #include <map>
 #include <set>
 
+#include "common/geometry/segment.h"
+
 namespace strake {
 namespace {
 
@@ -57,6 +59,28 @@ bool keeps_faces(const PolygonGraph& graph, Index dart) {
     }
   }
   return true;
+}
+
+/// Wanted length of an edge: the smaller one of those at its ends.
+double size_at_edge(const PolygonGraph& graph, const LocalSize& size, Index dart) {
+  const DartGraph& g = graph.graph();
+  return std::min(size(graph.node(g.from(dart))), size(graph.node(g.to(dart))));
+}
+
+/// How far the corner from(dart) lies off the features and boundaries around to(dart) once it is
+/// merged into that.
+double distance_once_merged(const PolygonGraph& graph, Index dart) {
+  const DartGraph& g = graph.graph();
+  const Vec3& corner = graph.position(g.from(dart));
+  const Vec3& apex = graph.position(g.to(dart));
+  double least = (corner - apex).norm();
+  for (const Index start : {dart, DartGraph::opposite(dart)}) {
+    for (Index d = g.rotate_ccw(start); d != start; d = g.rotate_ccw(d)) {
+      if (!graph.is_barrier(d)) continue;
+      least = std::min(least, way_to_segment(corner, apex, graph.position(g.to(d))).norm());
+    }
+  }
+  return least;
 }
 
 /// Dissolves a node of degree two where that leaves polygons with distinct edges.
@@ -127,16 +151,17 @@ void clean_up(PolygonGraph& graph, std::initializer_list<Index> darts, SimplifyC
   }
 }
 
-void contract_short_edges(PolygonGraph& graph, const LocalSize& size, double shortest,
+void contract_short_edges(PolygonGraph& graph, const LocalSize& size, const SimplifyLimits& limits,
                           SimplifyCounts& counts) {
   const DartGraph& g = graph.graph();
   std::vector<std::pair<double, Index>> candidates;
   for (Index d = 0; d < g.dart_count(); d += 2) {
     if (!g.is_alive(d)) continue;
-    const double wanted = std::min(size(graph.node(g.from(d))), size(graph.node(g.to(d))));
-    const double ratio = (graph.position(g.from(d)) - graph.position(g.to(d))).norm() / wanted;
+    const double ratio =
+        (graph.position(g.from(d)) - graph.position(g.to(d))).norm() / size_at_edge(graph, size, d);
     const bool between_corners =
         graph.rank(g.from(d)) == NodeRank::corner && graph.rank(g.to(d)) == NodeRank::corner;
+    const double shortest = limits.shortest;
     if (ratio < (between_corners ? std::min(shortest, kShortestCornerEdge) : shortest)) {
       candidates.emplace_back(ratio, d);
     }
@@ -155,6 +180,11 @@ void contract_short_edges(PolygonGraph& graph, const LocalSize& size, double sho
       dart = DartGraph::opposite(dart);
       if (!can_contract(graph, dart)) continue;
     }
+    if (graph.rank(g.from(dart)) == NodeRank::corner &&
+        distance_once_merged(graph, dart) >
+            limits.corner_distance * size_at_edge(graph, size, dart)) {
+      continue;
+    }
     const Index left = g.next(dart);
     const Index right = g.next(DartGraph::opposite(dart));
     graph.contract(dart);
@@ -167,8 +197,7 @@ void divide_bent_barriers(PolygonGraph& graph, const LocalSize& size, SimplifyCo
   const DartGraph& g = graph.graph();
   for (Index d = 0; d < g.dart_count(); d += 2) {  // new edges come last and are looked at too
     if (!g.is_alive(d) || !graph.is_barrier(d) || g.from(d) == g.to(d)) continue;
-    const double largest =
-        kLargestSagitta * std::min(size(graph.node(g.from(d))), size(graph.node(g.to(d))));
+    const double largest = kLargestSagitta * size_at_edge(graph, size, d);
     const PolygonGraph::Bend bend = graph.bend(d);
     if (!(bend.distance > largest)) continue;
     graph.split(d, bend.share);
@@ -261,13 +290,13 @@ bool can_contract(const PolygonGraph& graph, Index dart) {
   return keeps_topology(graph, dart) && keeps_faces(graph, dart);
 }
 
-SimplifyCounts simplify(PolygonGraph& graph, const LocalSize& size, double shortest) {
+SimplifyCounts simplify(PolygonGraph& graph, const LocalSize& size, const SimplifyLimits& limits) {
   SimplifyCounts counts;
   const DartGraph& g = graph.graph();
   for (Index d = 0; d < g.dart_count(); ++d) clean_up(graph, {d}, counts);
   for (int pass = 0; pass < 3; ++pass) {
     const Index before = counts.contracted_edges;
-    contract_short_edges(graph, size, shortest, counts);
+    contract_short_edges(graph, size, limits, counts);
     if (counts.contracted_edges == before) break;
   }
   for (Index d = 0; d < g.dart_count(); ++d) {

@@ -17,13 +17,18 @@ struct SimplifyCounts {
 /// Wanted edge length at a node, model units.
 using LocalSize = std::function<double(const SurfaceNode&)>;
 
+/// Which edges are contracted, in wanted edge lengths.
+struct SimplifyLimits {
+  double shortest = 0;         ///< those below this length
+  double corner_distance = 1;  ///< corners only where they come to lie this near to features
+};
+
 /// Brings the cells into the form of a polygon mesh: merges crossings that nearly coincide by edge
 /// contraction under the link condition, removes cells of two sides, and divides edges until no
 /// two nodes are joined twice.
 ///
 /// Never merges across feature or boundary lines, and never changes the topology of the surface.
-/// \param shortest edges below this share of the local size are contracted
-SimplifyCounts simplify(PolygonGraph& graph, const LocalSize& size, double shortest);
+SimplifyCounts simplify(PolygonGraph& graph, const LocalSize& size, const SimplifyLimits& limits);
 
 /// Removes one edge of a cell with two sides, the less important one. \return whether it was one
 bool remove_bigon(PolygonGraph& graph, Index dart);

@@ -18,6 +18,9 @@ constexpr Index kMostFaces = 200000;
 /// Where more faces cross, or a larger share of all, the shape is finer than its lines all over.
 constexpr std::size_t kMostPlaces = 1000;
 constexpr double kMostShare = 0.3;
+/// Share of faces that cross from which on attempts are given up after the first ones in vain.
+constexpr double kLargeShare = 0.1;
+constexpr int kShortPatience = 2;
 
 /// One more attempt; nothing where it comes to no result, or to none within a tolerance.
 std::optional<Attempt> attempt_again(const Again& again, Session session,
@@ -40,6 +43,8 @@ Attempt part_faces(const Attempt& first, Index faces, int patience, const Again&
   bool is_last_best = true;
   const auto most =
       std::min(kMostPlaces, static_cast<std::size_t>(kMostShare * static_cast<double>(faces)));
+  const double share = static_cast<double>(first.places.size()) / faces;
+  if (share > kLargeShare) patience = std::min(patience, kShortPatience);
   const auto is_worth_it = [&] {
     return patience > 0 && !best.places.empty() && best.places.size() <= most;
   };

@@ -12,6 +12,7 @@
 #include "common/core/error.h"
 #include "common/core/tolerance_error.h"
 #include "common/geometry/face_crossings/crossing_places.h"
+#include "stages/mesh/mesh.h"
 #include "stages/size/closer_near.h"
 #include "strake/chain/attempt.h"
 #include "strake/chain/count_search.h"
@@ -67,6 +68,8 @@ constexpr double kCloserWhereCrossing = 0.7;
 /// Scale on distances that were those of lines, and have theirs in them. Where a count is wanted
 /// the stage scales them to it first, and the scale found for that stays.
 constexpr const char* kScaleOfLines = "1";
+/// How far corners of features may come to lie off these where there are too many for a count.
+constexpr const char* kAnyDistance = "1";
 /// Rounds of fitting before the worst cells are divided: enough to see where errors will stay.
 constexpr int kRoundsBeforeDividing = 3;
 
@@ -360,6 +363,16 @@ LineAim aim_of(const Session& session, const GoalStages& stages, Counted counted
   return {counted, std::llround((1 - left) * static_cast<double>(wanted)), wanted, left};
 }
 
+Index corner_count(const Session& session) {
+  return static_cast<Index>(std::ranges::count(session.get<TriMesh>("mesh").is_corner, 1));
+}
+
+/// Whether lines give more than may be.
+bool is_exceeded(const Session& session, const LineAim& aim) {
+  const std::int64_t given = count_of(session, "quads", aim.counted);
+  return given > aim.wanted && aim.miss(given) > kCountTolerance;
+}
+
 /// Traces, feeds errors back, looks for the count, fits, and traces closer where faces cross.
 void trace_to_count(Session& session, const GoalStages& stages, const LineAim& aim,
                     std::optional<std::int64_t> feedback_rounds) {
@@ -372,6 +385,14 @@ void trace_to_count(Session& session, const GoalStages& stages, const LineAim& a
       trace_and_mesh(session, stages);
       feed_back(session, stages, aim);
     }
+    search_scale(session, stages, aim);
+  }
+  // Corners of features stay where that is possible at this count.
+  const Option& distance = stages.mesh.option("corner-distance");
+  const bool is_users = distance.value() != fmt::format("{}", MeshOptions{}.corner_distance);
+  std::optional<OtherValue> merging;
+  if (!is_users && is_exceeded(session, aim)) {
+    merging.emplace(distance, kAnyDistance);
     search_scale(session, stages, aim);
   }
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
@@ -398,7 +419,7 @@ void trace_to_count(Session& session, const GoalStages& stages, const LineAim& a
 void warn_of_count(Session& session, const LineAim& aim) {
   const std::int64_t reached = count_of(session, result_port(session), aim.counted);
   if (aim.miss(reached) <= kCountTolerance) return;
-  const auto corners = std::ranges::count(session.get<TriMesh>("mesh").is_corner, 1);
+  const Index corners = corner_count(session);
   const bool is_by_corners = aim.counted == Counted::vertices && corners > aim.wanted;
   session.say(fmt::format(
       "warning: {} {} were wanted, but the nearest result has {}: {}", aim.wanted,

@@ -8,8 +8,11 @@
 namespace strake {
 namespace {
 
-/// Faces that cross, up to which the input's own are tried in their place for a count.
+/// Faces that cross, and their share of all, up to which the input's own are tried in their place
+/// for a count. Where more do the shape is too fine for its cells nearly everywhere, and what would
+/// take their place is most of the surface.
 constexpr std::size_t kMostReplaced = 1000;
+constexpr double kMostReplacedShare = 0.05;
 
 }  // namespace
 
@@ -19,8 +22,11 @@ bool only_quads(const GoalStages& stages) {
 
 std::vector<Vec3> replace_crossing(Session& session, const GoalStages& stages, const LineAim& aim,
                                    CrossingPlaces& crossing) {
-  std::vector<Vec3> places = crossing.of(session.get<QuadMesh>("fitted").mesh);
-  if (places.empty() || places.size() > kMostReplaced || only_quads(stages)) return places;
+  const PolyMesh& faces = session.get<QuadMesh>("fitted").mesh;
+  std::vector<Vec3> places = crossing.of(faces);
+  if (places.empty() || only_quads(stages)) return places;
+  const double share = static_cast<double>(places.size()) / faces.face_count();
+  if (places.size() > kMostReplaced || share > kMostReplacedShare) return places;
   Session tried = session;
   try {
     tried.run(stages.uncross);

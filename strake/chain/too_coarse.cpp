@@ -10,6 +10,7 @@
 #include "common/geometry/cell_error/cell_error.h"
 #include "common/geometry/face_crossings/crossing_places.h"
 #include "common/geometry/mesh_measures.h"
+#include "common/geometry/poly_topology/poly_topology.h"
 
 namespace strake {
 namespace {
@@ -22,7 +23,8 @@ constexpr double kSeen = 0.06;
 constexpr double kManyCross = 0.02;
 /// Share of a wanted count that a result may be off by.
 constexpr double kFarOff = 0.05;
-/// Share of a distance that is much less than it, of one that is seen and of another.
+/// Share of a distance that is much less than it: of one that is seen, or of a result that has no
+/// more quads than the other, and of another one.
 constexpr double kMuchLess = 0.5;
 constexpr double kVeryMuchLess = 0.25;
 /// Times that the count is corrected where faces are counted, and error that is small enough.
@@ -44,6 +46,7 @@ struct Faults {
       0;  ///< root mean square, in mean lengths of cells, were there as many as wanted
   double crossing = 0;  ///< share of the faces
   double missing = 0;   ///< share of the count, too few or too many
+  double odd = 0;       ///< share of the faces that are no quads
 };
 
 double area(const TriMesh& mesh) {
@@ -73,7 +76,8 @@ Faults faults_of(const Session& session, const Goal& goal, double samples = kSam
   const auto crossing = static_cast<double>(CrossingPlaces(mesh).of(result.mesh).size());
   return {
       measure_cells(ComparedSurfaces(mesh, result), sampling_of(result.mesh, samples)).rms / cell,
-      crossing / result.mesh.face_count(), std::abs(share - 1)};
+      crossing / result.mesh.face_count(), std::abs(share - 1),
+      1 - static_cast<double>(analyse(result.mesh).quads) / result.mesh.face_count()};
 }
 
 bool is_too_coarse(const Faults& faults) {
@@ -82,7 +86,8 @@ bool is_too_coarse(const Faults& faults) {
 
 /// Whether one of the faults is much less, and none is more.
 bool is_much_better(const Faults& other, const Faults& faults) {
-  const double share = faults.distance > kSeen ? kMuchLess : kVeryMuchLess;
+  const bool is_enough = faults.distance > kSeen || other.odd <= faults.odd;
+  const double share = is_enough ? kMuchLess : kVeryMuchLess;
   const bool is_nearer = other.distance < share * faults.distance;
   const bool crosses_less = faults.crossing > kManyCross && other.crossing < kManyCross / 2;
   const bool is_as_wanted = faults.missing > kFarOff && other.missing < kFarOff / 2;

@@ -75,6 +75,14 @@ TEST(PartFaces, TriesNothingWhereMostFacesCross) {
   EXPECT_EQ(attempts.again(), 0u);
 }
 
+TEST(PartFaces, SoonGivesUpWhereManyFacesCross) {
+  Attempts attempts({101, 100, 99, 98, 0});
+  EXPECT_EQ(attempts.part(1000).places.size(), 99u);
+  EXPECT_EQ(attempts.again(), 2u);
+  Attempts helping({200, 90, 40, 15, 0});
+  EXPECT_TRUE(helping.part(1000).places.empty());
+}
+
 TEST(PartFaces, HasThePatienceAskedFor) {
   Attempts attempts({8, 7, 9, 8, 0});
   EXPECT_EQ(attempts.part(100, 2).places.size(), 7u);

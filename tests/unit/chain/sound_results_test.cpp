@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/core/tolerance_error.h"
+#include "common/geometry/cell_error/cell_error.h"
 #include "common/geometry/face_crossings/face_crossings.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/samples/samples.h"
@@ -239,6 +240,68 @@ TEST(Remesh, SaysThatCornersStay) {
   EXPECT_NE(said_at(2).find("a larger --feature-angle keeps fewer"), std::string::npos)
       << said_at(2);
   EXPECT_EQ(said_at(180).find("a larger --feature-angle keeps fewer"), std::string::npos);
+}
+
+/// A plate with thin fins, as a comb that is drawn out.
+PolyMesh heat_sink(int fins) {
+  std::vector<Vec2> outline = {{0, 0}, {4.0 * fins - 3, 0}};
+  for (int fin = fins - 1; fin >= 0; --fin) {
+    const double x = 4.0 * fin;
+    outline.insert(outline.end(), {{x + 1, 20}, {x, 20}});
+    if (fin > 0) outline.insert(outline.end(), {{x, 4}, {x - 3, 4}});
+  }
+  PolyMesh mesh;
+  const auto n = static_cast<Index>(outline.size());
+  for (const double z : {0.0, 40.0}) {
+    for (const Vec2& p : outline) mesh.positions.emplace_back(p.x(), p.y(), z);
+  }
+  std::vector<Index> front;
+  std::vector<Index> back;
+  for (Index i = 0; i < n; ++i) {
+    const Index next = (i + 1) % n;
+    mesh.add_face(std::array<Index, 4>{i, next, n + next, n + i});
+    back.push_back(n - 1 - i);
+    front.push_back(n + i);
+  }
+  mesh.add_face(back);
+  mesh.add_face(front);
+  return mesh;
+}
+
+std::size_t corners_without_vertex(const PolyMesh& result, const PolyMesh& input) {
+  return std::ranges::count_if(input.positions, [&](const Vec3& corner) {
+    return std::ranges::none_of(result.positions,
+                                [&](const Vec3& p) { return (p - corner).norm() < 1e-6; });
+  });
+}
+
+// Fins are an eighth as thick as cells are wide. With corners merged like other vertices that are
+// close the result was 2 % of the diagonal off.
+TEST(Remesh, CornersOfThinFinsStay) {
+  const PolyMesh mesh = heat_sink(8);
+  RemeshOptions options;
+  options.trace.vertices = 200;
+  options.measure = false;
+  const RemeshResult result = remesh({mesh, {}, {}, {}}, options);
+  EXPECT_NEAR(result.quads.mesh.vertex_count(), 200, 10);
+  EXPECT_EQ(corners_without_vertex(result.quads.mesh, mesh), 0u);
+  const ComparedSurfaces surfaces(result.mesh, result.quads);
+  EXPECT_LT(measure_cells(surfaces).largest, 1e-6 * result.mesh.diagonal);
+}
+
+// There are 60 corners, and with all of them some hundred vertices.
+TEST(Remesh, CornersMergeWhereTheyAreTooManyForACount) {
+  const PolyMesh mesh = heat_sink(15);
+  RemeshOptions options;
+  options.trace.vertices = 60;
+  options.measure = false;
+  options.lines_only = true;
+  const PolyMesh merged = remesh({mesh, {}, {}, {}}, options).quads.mesh;
+  EXPECT_GT(corners_without_vertex(merged, mesh), 0u);
+  options.mesh.corner_distance = 0;
+  const PolyMesh kept = remesh({mesh, {}, {}, {}}, options).quads.mesh;
+  EXPECT_EQ(corners_without_vertex(kept, mesh), 0u);
+  EXPECT_LT(merged.vertex_count(), 0.9 * kept.vertex_count());
 }
 
 // Within a tolerance that its own faces are coarse against a mesh is a polyhedron with many edges.

@@ -230,8 +230,7 @@ PolygonGraph three_cells(const TriMesh& mesh) {
 TEST(SplitCrossingFeatures, BringsThemBackToTheirCourse) {
   const TriMesh mesh = narrow_ring();
   PolygonGraph graph = three_cells(mesh);
-  simplify(
-      graph, [](const SurfaceNode&) { return 12.0; }, 0.3);
+  simplify(graph, [](const SurfaceNode&) { return 12.0; }, {.shortest = 0.3});
   ASSERT_GT(crossing_edges(graph, true), 0) << "the ring is finer than its edges";
   EXPECT_GT(split_crossing_features(graph), 0);
   EXPECT_EQ(crossing_edges(graph, true), 0);

@@ -83,8 +83,8 @@ TEST(Simplify, KeepsTheTopologyWhateverIsTooShort) {
     const TriMesh mesh = thin_torus(around);
     for (const double size : {0.1, 0.5, 1.0, 10.0}) {
       PolygonGraph graph = triangle_graph(mesh);
-      const SimplifyCounts counts = simplify(
-          graph, [&](const SurfaceNode&) { return size; }, 0.9);
+      const SimplifyCounts counts =
+          simplify(graph, [&](const SurfaceNode&) { return size; }, {.shortest = 0.9});
       ASSERT_TRUE(is_consistent(graph.graph()));
       EXPECT_EQ(count(graph.graph()).euler(), 0);
       EXPECT_EQ(count(graph.graph()).parts, 1);
