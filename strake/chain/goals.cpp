@@ -472,7 +472,11 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
 std::string follow_spacing(Session& session, const GoalStages& stages) {
   estimate_field(session, stages);
   trace_mesh_and_fit(session, stages);
-  return "fitted";
+  const std::int64_t count = count_of(session, "fitted", Counted::vertices);
+  CrossingPlaces crossing(session.get<TriMesh>("mesh"));
+  replace_crossing(session, stages, {Counted::vertices, count, count, 0}, crossing);
+  if (session.has("uncrossed")) session.keep(stages.uncross);
+  return result_port(session);
 }
 
 std::string meet_tolerance(Session& session, const GoalStages& stages, const std::string& tolerance,

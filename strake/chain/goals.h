@@ -30,7 +30,8 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
                        std::int64_t wanted, std::optional<std::int64_t> feedback_rounds,
                        bool lines_only, double working_ratio);
 
-/// Traces once, at the distances that the options of tracing ask for.
+/// Traces once, at the distances that the options of tracing ask for, and takes the input's own
+/// faces where single faces of the result cross.
 /// \return the port of the result
 std::string follow_spacing(Session& session, const GoalStages& stages);
 

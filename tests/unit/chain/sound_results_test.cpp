@@ -203,6 +203,25 @@ TEST(Remesh, LinesAreCloserOnlyWhereDividingDoesNotReachTheTolerance) {
             1.5 * vertices_below(make_sample(SampleKind::sphere, sample)));
 }
 
+// Between claws cells of the spacing that is the default cross.
+TEST(Remesh, WithoutAGoalFacesDoNotCross) {
+  RemeshOptions options;
+  options.measure = false;
+  struct Ring {
+    int count;
+    double apart;
+    double width;
+  };
+  for (const Ring& ring : {Ring{6, 0.2, 0.08}, Ring{6, 0.4, 0.05}, Ring{10, 0.3, 0.05}}) {
+    const PolyMesh mesh = claws(ring.count, ring.apart, ring.width, 0.6, 20000);
+    const RemeshResult result = remesh({mesh, {}, {}, {}}, options);
+    EXPECT_EQ(crossings(result.quads.mesh), 0u) << ring.count << " claws";
+    EXPECT_TRUE(std::ranges::any_of(result.reports, [](const auto& report) {
+      return report.first == "refine-uncross";
+    })) << "nothing crossed before";
+  }
+}
+
 // Quads alone are neither made anew where they cross nor replaced.
 TEST(Remesh, SaysThatFacesCross) {
   RemeshOptions options;
