@@ -91,8 +91,10 @@ void remove_old_runs(const Store& store) {
   const auto limit = fs::file_time_type::clock::now() -
                      std::chrono::seconds(static_cast<std::int64_t>(kKeepRunsSeconds));
   for (const auto& run : fs::directory_iterator(store.side_folder("runs"), ignored)) {
-    const bool is_old = fs::last_write_time(run.path() / "outcomes", ignored) < limit;
-    if (is_old) fs::remove_all(run.path(), ignored);
+    std::error_code error;
+    fs::file_time_type written = fs::last_write_time(run.path() / "outcomes", error);
+    if (error) written = fs::last_write_time(run.path(), error);  // it is being made just now
+    if (!error && written < limit) fs::remove_all(run.path(), ignored);
   }
   store.empty_trash();
 }

@@ -263,6 +263,16 @@ TEST_F(Collection, WhatWasUsedLastStays) {
   must_fail(kUsage, "strake gc --max-size lots", "10GB");
 }
 
+TEST_F(Collection, FoldersOfRunsThatBeginStay) {
+  const fs::path run = file("store") / ".runs" / "begun";
+  fs::create_directories(run);  // as it is before there is anything inside
+  must("strake gc --unreachable");
+  EXPECT_TRUE(fs::exists(run));
+  fs::last_write_time(run, fs::last_write_time(run) - std::chrono::hours(8 * 24));
+  must("strake gc --unreachable");
+  EXPECT_FALSE(fs::exists(run));
+}
+
 TEST_F(Collection, WhatIsBeingMadeStays) {
   const std::string entry = entries().front();
   const EntryLock maker(file("store") / entry);

@@ -96,9 +96,9 @@ TEST(Remesh, WithFewVerticesFacesDoNotCross) {
 
 // The input's own faces are instead of those that cross, which takes less time than all lines anew.
 TEST(Remesh, LinesAreNotTracedAgainForSingleFacesThatCross) {
-  const PolyMesh mesh = claws(8, 0.3, 0.06, 0.6, 20000);
+  const PolyMesh mesh = claws(8, 0.25, 0.06, 0.6, 20000);
   std::int64_t uncrossed = 0;
-  for (const std::int64_t vertices : {500, 600, 900}) {
+  for (const std::int64_t vertices : {500, 700, 900}) {
     RemeshOptions options;
     options.trace.vertices = vertices;
     options.measure = false;

@@ -61,12 +61,12 @@ TEST(TooCoarse, DecimationTakesThePlaceOfLinesThatMissTheShape) {
 TEST(TooCoarse, ACountIsMetThatLinesMiss) {
   const PolyMesh mesh = pits();
   RemeshOptions options;
-  options.trace.vertices = 150;
+  options.trace.vertices = 100;
   options.measure = false;
-  EXPECT_EQ(remesh({mesh, {}, {}, {}}, options).quads.mesh.vertex_count(), 150);
+  EXPECT_EQ(remesh({mesh, {}, {}, {}}, options).quads.mesh.vertex_count(), 100);
   options.lines_only = true;
   const Index lines = remesh({mesh, {}, {}, {}}, options).quads.mesh.vertex_count();
-  EXPECT_GT(std::abs(lines - 150), 15);
+  EXPECT_GT(std::abs(lines - 100), 15);
 }
 
 TEST(TooCoarse, FacesAreCountedLikewise) {
