@@ -331,7 +331,7 @@ FAULTS = [
     Fault("folders of runs that begin are taken for old ones",
           "strake/run/gc_command.cpp",
           "if (error) written = fs::last_write_time(run.path(), error);",
-          "if (error) error.clear();", "pipeline_tests", "^Collection"),
+          "if (error) error.clear();", "test_run", "^Collection"),
     Fault("faces may cross where no goal is given",
           "strake/chain/goals.cpp",
           "  replace_crossing(session, stages, {Counted::vertices, count, count, 0}, crossing);", "",
