@@ -1,5 +1,7 @@
 #include "strake/chain/working_mesh.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -57,6 +59,7 @@ void take_from_coarser_mesh(Session& session, Session coarser, const GoalStages&
   session.run(stages.prolong);
   session.keep(stages.prolong);
   for (const char* port : {"coarse", "coarse-field", "coarse-quads"}) session.withdraw(port);
+  malloc_trim(0);  // fitting to the input takes more than anything before: what is free makes room
   const Option& rounds = stages.fit.option("fit-rounds");
   const OtherValue few(rounds, std::to_string(std::min(kLastRounds, std::stoi(rounds.value()))));
   session.run(stages.fit);
