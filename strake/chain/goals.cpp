@@ -68,7 +68,9 @@ constexpr double kCloserWhereCrossing = 0.7;
 /// Scale on distances that were those of lines, and have theirs in them. Where a count is wanted
 /// the stage scales them to it first, and the scale found for that stays.
 constexpr const char* kScaleOfLines = "1";
-/// How far corners of features may come to lie off these where there are too many for a count.
+/// Corners of features for each vertex or face wanted, from which on they may be too many, and how
+/// far they may come to lie off features then.
+constexpr double kManyCorners = 0.25;
 constexpr const char* kAnyDistance = "1";
 /// Rounds of fitting before the worst cells are divided: enough to see where errors will stay.
 constexpr int kRoundsBeforeDividing = 3;
@@ -390,8 +392,9 @@ void trace_to_count(Session& session, const GoalStages& stages, const LineAim& a
   // Corners of features stay where that is possible at this count.
   const Option& distance = stages.mesh.option("corner-distance");
   const bool is_users = distance.value() != fmt::format("{}", MeshOptions{}.corner_distance);
+  const bool are_many = corner_count(session) > kManyCorners * static_cast<double>(aim.wanted);
   std::optional<OtherValue> merging;
-  if (!is_users && is_exceeded(session, aim)) {
+  if (!is_users && are_many && is_exceeded(session, aim)) {
     merging.emplace(distance, kAnyDistance);
     search_scale(session, stages, aim);
   }
