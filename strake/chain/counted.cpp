@@ -1,6 +1,9 @@
 #include "strake/chain/counted.h"
 
+#include <algorithm>
+
 #include "common/core/poly_mesh.h"
+#include "common/core/tri_mesh.h"
 
 namespace strake {
 
@@ -11,6 +14,10 @@ std::int64_t count_of(const Session& session, const char* port, Counted counted)
 
 const char* result_port(const Session& session) {
   return session.has("uncrossed") ? "uncrossed" : "fitted";
+}
+
+Index corner_count(const Session& session) {
+  return static_cast<Index>(std::ranges::count(session.get<TriMesh>("mesh").is_corner, 1));
 }
 
 const char* name_of(Counted counted) { return counted == Counted::vertices ? "vertices" : "faces"; }

@@ -17,6 +17,7 @@
 #include "strake/chain/attempt.h"
 #include "strake/chain/count_search.h"
 #include "strake/chain/density_match.h"
+#include "strake/chain/goal_warnings.h"
 #include "strake/chain/line_aim.h"
 #include "strake/chain/replace_crossing.h"
 #include "strake/chain/too_coarse.h"
@@ -61,8 +62,6 @@ constexpr double kCloser = 0.6;
 /// tried for them before.
 constexpr int kPatience = 5;
 constexpr int kPatienceWithinTolerance = 2;
-/// Vertices of a result within a tolerance, over those of the input, of which the user is told.
-constexpr Index kExcessive = 2;
 /// Share of the distances of lines around faces that cross.
 constexpr double kCloserWhereCrossing = 0.7;
 /// Scale on distances that were those of lines, and have theirs in them. Where a count is wanted
@@ -365,10 +364,6 @@ LineAim aim_of(const Session& session, const GoalStages& stages, Counted counted
   return {counted, std::llround((1 - left) * static_cast<double>(wanted)), wanted, left};
 }
 
-Index corner_count(const Session& session) {
-  return static_cast<Index>(std::ranges::count(session.get<TriMesh>("mesh").is_corner, 1));
-}
-
 /// Whether lines give more than may be.
 bool is_exceeded(const Session& session, const LineAim& aim) {
   const std::int64_t given = count_of(session, "quads", aim.counted);
@@ -417,32 +412,6 @@ void trace_to_count(Session& session, const GoalStages& stages, const LineAim& a
   };
   const Index faces = first.done.get<QuadMesh>("fitted").mesh.face_count();
   session = part_faces(first, faces, kPatience, again, keep).done;
-}
-
-void warn_of_count(Session& session, const LineAim& aim) {
-  const std::int64_t reached = count_of(session, result_port(session), aim.counted);
-  if (aim.miss(reached) <= kCountTolerance) return;
-  const Index corners = corner_count(session);
-  const bool is_by_corners = aim.counted == Counted::vertices && corners > aim.wanted;
-  session.say(fmt::format(
-      "warning: {} {} were wanted, but the nearest result has {}: {}", aim.wanted,
-      name_of(aim.counted), reached,
-      is_by_corners
-          ? fmt::format("{} corners of feature and boundary lines stay; a larger --feature-angle "
-                        "keeps fewer",
-                        corners)
-          : "the shape, --max-spacing or the mesh's own resolution do not allow it"));
-}
-
-/// A mesh coarser than the tolerance is taken for the polyhedron it is, edge by edge.
-void warn_of_excess(Session& session) {
-  const Index given = session.get<TriMesh>("mesh").vertex_count();
-  const Index made = session.get<QuadMesh>("refined").mesh.vertex_count();
-  if (made <= kExcessive * given) return;
-  session.say(fmt::format(
-      "warning: the result has {} vertices, the input {}: its own faces are larger than "
-      "cells may be; a larger --tolerance takes fewer, on flats a larger --max-spacing",
-      made, given));
 }
 
 }  // namespace

@@ -81,29 +81,36 @@ TEST(Partition, ClosesThatWallWhereOnlyShapesCount) {
   EXPECT_GT(farthest_off(graph), 0.5) << "else the other test shows nothing";
 }
 
+/// The wall, and the outline of one of its cells.
+struct WallCell {
+  explicit WallCell(Index lines)
+      : mesh(wall(3)), surface(mesh.positions, mesh.faces), graph(few_cells(mesh, lines)) {
+    graph.for_each_cell([&](Index, const DartLoop& cell) { outline = cell; });
+  }
+
+  TriMesh mesh;
+  SurfaceDistance surface;
+  PolygonGraph graph;
+  DartLoop outline;
+};
+
 TEST(OffSurface, PricesTheSquareOfTheShareThatAnEdgeIsOff) {
-  const TriMesh mesh = wall(3);
-  const SurfaceDistance surface(mesh.positions, mesh.faces);
-  const PolygonGraph graph = few_cells(mesh, 2);
-  DartLoop half;
-  graph.for_each_cell([&](Index, const DartLoop& cell) { half = cell; });
-  const OffSurface off(graph, half, &surface);
+  const WallCell half(2);
+  const OffSurface off(half.graph, half.outline, &half.surface);
   EXPECT_NEAR(off.price(Vec3(1, 0, 0), Vec3(1, 0, 3)), 0, 1e-12);
   // A chord of angle a is 1 - cos(a / 2) off in its middle, and 2 sin(a / 2) long.
   const double quarter = off.price(Vec3(1, 0, 1), Vec3(0, 1, 1));
   const double half_way = off.price(Vec3(1, 0, 1), Vec3(-1, 0, 1));
   const double share = (1 - std::cos(M_PI / 4)) / (2 * std::sin(M_PI / 4));
   EXPECT_NEAR(quarter / half_way, share * share / 0.25, 0.02);
-  EXPECT_EQ(OffSurface(graph, half, nullptr).price(Vec3(1, 0, 1), Vec3(-1, 0, 1)), 0);
+  const OffSurface free(half.graph, half.outline, nullptr);
+  EXPECT_EQ(free.price(Vec3(1, 0, 1), Vec3(-1, 0, 1)), 0);
 }
 
 TEST(OffSurface, LooksAwayWhereTheOutlineIsNearlyFlat) {
-  const TriMesh mesh = wall(3);
-  const SurfaceDistance surface(mesh.positions, mesh.faces);
-  const PolygonGraph graph = few_cells(mesh, 8);
-  DartLoop eighth;
-  graph.for_each_cell([&](Index, const DartLoop& cell) { eighth = cell; });
-  EXPECT_EQ(OffSurface(graph, eighth, &surface).price(Vec3(1, 0, 1), Vec3(-1, 0, 1)), 0);
+  const WallCell eighth(8);
+  const OffSurface off(eighth.graph, eighth.outline, &eighth.surface);
+  EXPECT_EQ(off.price(Vec3(1, 0, 1), Vec3(-1, 0, 1)), 0);
 }
 
 }  // namespace

@@ -1,0 +1,41 @@
+#include "strake/chain/goal_warnings.h"
+
+#include <fmt/format.h>
+
+#include "common/core/poly_mesh.h"
+#include "common/core/tri_mesh.h"
+
+namespace strake {
+namespace {
+
+/// Vertices of a result within a tolerance, over those of the input, of which the user is told.
+constexpr Index kExcessive = 2;
+
+}  // namespace
+
+void warn_of_count(Session& session, const LineAim& aim) {
+  const std::int64_t reached = count_of(session, result_port(session), aim.counted);
+  if (aim.miss(reached) <= kCountTolerance) return;
+  const Index corners = corner_count(session);
+  const bool is_by_corners = aim.counted == Counted::vertices && corners > aim.wanted;
+  session.say(fmt::format(
+      "warning: {} {} were wanted, but the nearest result has {}: {}", aim.wanted,
+      name_of(aim.counted), reached,
+      is_by_corners
+          ? fmt::format("{} corners of feature and boundary lines stay; a larger --feature-angle "
+                        "keeps fewer",
+                        corners)
+          : "the shape, --max-spacing or the mesh's own resolution do not allow it"));
+}
+
+void warn_of_excess(Session& session) {
+  const Index given = session.get<TriMesh>("mesh").vertex_count();
+  const Index made = session.get<QuadMesh>("refined").mesh.vertex_count();
+  if (made <= kExcessive * given) return;
+  session.say(fmt::format(
+      "warning: the result has {} vertices, the input {}: its own faces are larger than "
+      "cells may be; a larger --tolerance takes fewer, on flats a larger --max-spacing",
+      made, given));
+}
+
+}  // namespace strake
