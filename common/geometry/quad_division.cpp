@@ -15,6 +15,7 @@ class Division {
         quad_(quad),
         diagonal_(diagonal),
         best_(corners * corners, kUnknown),
+        chord_(corners * corners, kUnknown),
         choice_(corners * corners) {}
 
   std::optional<QuadDivision> run() {
@@ -28,7 +29,13 @@ class Division {
   static constexpr double kUnknown = -kInfinity;
 
   double chord(std::size_t i, std::size_t j) {
-    return j - i == 1 ? 0.0 : diagonal_(i, j) + best(i, j);
+    if (j - i == 1) return 0;
+    double& known = chord_[i * corners_ + j];
+    if (known == kUnknown) {
+      known = best(i, j);
+      if (known < kInfinity) known += diagonal_(i, j);
+    }
+    return known;
   }
 
   /// Least price of the corners from i to j, closed by the chord between these.
@@ -63,6 +70,7 @@ class Division {
   const QuadPrice& quad_;
   const DiagonalPrice& diagonal_;
   std::vector<double> best_;                                 ///< [n * n]
+  std::vector<double> chord_;                                ///< [n * n] best_, and the diagonal
   std::vector<std::pair<std::size_t, std::size_t>> choice_;  ///< [n * n]
 };
 

@@ -14,6 +14,13 @@ class ClaimedNodes {
   explicit ClaimedNodes(const PolygonGraph& graph)
       : graph_(&graph.graph()), claimed_(graph.node_count(), 0) {}
 
+  /// All nodes, as before the first round.
+  static ClaimedNodes all(const PolygonGraph& graph) {
+    ClaimedNodes nodes(graph);
+    nodes.claimed_.clear();
+    return nodes;
+  }
+
   /// Nodes that are newer than this count as taken.
   [[nodiscard]] bool has(Index node) const {
     return node >= static_cast<Index>(claimed_.size()) || claimed_[node] != 0;

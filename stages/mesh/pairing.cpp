@@ -35,7 +35,11 @@ class Pairing {
  public:
   Pairing(PolygonGraph& graph, const EdgeLength& wanted, double price,
           const SurfaceDistance* surface)
-      : graph_(graph), wanted_(wanted), price_(price), surface_(surface), claimed_(graph) {}
+      : graph_(graph),
+        wanted_(wanted),
+        price_(price),
+        surface_(surface),
+        claimed_(ClaimedNodes::all(graph)) {}
 
   PairingCounts run() {
     for (int round = 0; round < kMostRounds; ++round) {
@@ -95,8 +99,10 @@ class Pairing {
   }
 
   void add_patch(const std::vector<Index>& cells, std::vector<Change>& found) const {
+    // The same cells are found from both ends.
+    if (graph_.name_of_cell(cells.back()) < graph_.name_of_cell(cells.front())) return;
     std::optional<Patch> patch = join_cells(graph_, cells);
-    if (!patch) return;
+    if (!patch || !is_changed(*patch)) return;
     const auto penalty = [&](Index dart, Index degree) {
       if (graph_.rank(graph_.graph().from(dart)) != NodeRank::line) return 0.0;
       return kDegreePrice * (degree - 4) * (degree - 4);
@@ -107,6 +113,12 @@ class Pairing {
     const double gain = division->shape_gain + division->degree_gain + 2 * price_;
     if (!(gain > kLeastGain)) return;
     found.push_back({gain, ChangeKind::divide_patch, std::move(*patch), std::move(*division), {}});
+  }
+
+  /// Whether the last round has changed anything there; otherwise it is not worth doing yet.
+  [[nodiscard]] bool is_changed(const Patch& patch) const {
+    return std::ranges::any_of(patch.outline,
+                               [&](Index d) { return claimed_.has(graph_.graph().from(d)); });
   }
 
   /// Makes the changes that do not touch what an earlier one has changed. \return whether any
@@ -168,7 +180,7 @@ class Pairing {
   const EdgeLength& wanted_;
   double price_;
   const SurfaceDistance* surface_;  ///< not owned
-  ClaimedNodes claimed_;            ///< in this round
+  ClaimedNodes claimed_;            ///< in this round, or the last one until its changes are made
   PairingCounts counts_;
 };
 
