@@ -73,7 +73,7 @@ int print_info(const std::string& path) {
 void check_artifact(ArtifactKind kind, const std::string& path) {
   switch (kind) {
     case ArtifactKind::mesh:
-      validate(read_tri_mesh(path));
+      load_value(PortKind::mesh, path);
       break;
     case ArtifactKind::tensor:
       read_tensor_field(path);

@@ -61,14 +61,18 @@ struct RemeshCommand {
 
 /// Keeps each output in the folder as the file "port.hdf", each record as "stage.json", and the
 /// times of all stages as times.json: reports and artifacts hold none, for equal work to give equal
-/// bytes.
+/// bytes. What an earlier run kept there goes: another one may have other stages.
 /// \throw InputError where the folder cannot be made
-Session::Keeper keeper(const fs::path& folder) {
+Session::Keeper keeper(const fs::path& folder, const std::vector<const Stage*>& stages) {
   std::error_code error;
   fs::create_directories(folder, error);
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored)) {
     throw InputError("folder '" + folder.string() + "' cannot be made: " + error.message());
+  }
+  for (const Stage* stage : stages) {
+    fs::remove(folder / (stage->name + ".json"), ignored);
+    fs::remove(folder / (stage->output.name + ".hdf"), ignored);
   }
   return [folder](const Session::Kept& kept) {
     write_text(folder / (kept.stage.name + ".json"), record_json(kept.record));
@@ -106,10 +110,10 @@ void RemeshCommand::add_to(CLI::App& app) {
 
 void RemeshCommand::check() const {
   check_output_path(PortKind::quads, output);
-  std::error_code ignored;
-  if (fs::equivalent(input, output, ignored)) {
-    throw UsageError("output '" + output + "' is the input; give another name");
-  }
+  std::vector<NamedFile> read = {{"input", input}};
+  for (const SideFile& file : side_files())
+    read.push_back({"input '" + file.port + "'", file.path});
+  check_files(read, output, shell.report_path);
   chain.check_goals();
 }
 
@@ -161,7 +165,7 @@ void RemeshCommand::make_output() {
   console.begin("strake");
   console.report("reading " + input, 0);
   Session session(console);
-  if (!keep.empty()) session.keep_with(keeper(keep));
+  if (!keep.empty()) session.keep_with(keeper(keep, chain.stages()));
   session.provide("input", load_value(PortKind::polygons, input), input, content_digest(input));
   for (const SideFile& file : side_files()) {
     session.provide(file.port, load_value(file.kind, file.path), file.path,

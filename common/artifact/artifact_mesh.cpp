@@ -80,6 +80,7 @@ TriMesh read_tri_mesh(const std::filesystem::path& path) {
   const std::size_t vertices = mesh.positions.size();
   const std::size_t faces = mesh.faces.size();
   const std::size_t wedges = mesh.wedge_vertex.size();
+  file.require(faces > 0, "faces", "is empty");
   file.require_rows(mesh.twin, 3 * faces, "twin");
   file.require_rows(mesh.vertex_out, vertices, "vertex_out");
   file.require_rows(mesh.is_feature, 3 * faces, "is_feature");

@@ -49,7 +49,7 @@ QuadMesh read_quad_mesh(const std::filesystem::path& path) {
   file.require_rows(quads.provenance.face, vertices, "source_face");
   file.require_rows(quads.provenance.barycentric, vertices, "source_barycentric");
   file.require_rows(quads.provenance.lines, vertices, "source_lines");
-  file.require_indices(quads.provenance.face, kNone, kAnyIndex, "source_face");
+  file.require_indices(quads.provenance.face, 0, kAnyIndex, "source_face");
   file.require_indices(quads.provenance.lines, kNone, kAnyIndex, "source_lines");
   file.require_finite(quads.provenance.barycentric, "source_barycentric");
   quads.mesh.attributes =

@@ -33,7 +33,7 @@ class UsageError : public Error {
   explicit UsageError(const std::string& message) : Error(ExitCode::usage, message) {}
 };
 
-/// A file cannot be read, is damaged, or holds nothing usable.
+/// A file cannot be read or written, is damaged, or holds nothing usable.
 class InputError : public Error {
  public:
   explicit InputError(const std::string& message) : Error(ExitCode::bad_input, message) {}

@@ -33,8 +33,9 @@ struct TriMesh {
   std::vector<std::array<Index, 3>> face_wedges;  ///< [F] wedge of each corner
   std::vector<Index> wedge_vertex;                ///< [W] vertex of each wedge
 
-  std::vector<Index> source_vertex;  ///< [V] index in the file read
-  std::vector<Index> source_face;    ///< [F] index in the file read (before triangulation)
+  std::vector<Index>
+      source_vertex;  ///< [V] index in the file read; kNone of vertices that repairs inserted
+  std::vector<Index> source_face;  ///< [F] index in the file read (before triangulation)
 
   /// [W] of a coarser mesh of another one: the wedge of that, at the same place; else empty.
   std::vector<Index> parent_wedge;

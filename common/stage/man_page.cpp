@@ -96,7 +96,7 @@ Internal error.
 Wrong use: unknown option, value out of range.
 .TP
 .B 3
-Bad input: a file is missing, damaged, or holds nothing usable.
+A file is missing, damaged, holds nothing usable, or cannot be written.
 .TP
 .B 4
 Inputs do not belong together.

@@ -82,18 +82,22 @@ void add_ports(CLI::App& app, const Stage& stage, Paths& paths) {
       ->required(stage.output.kind != PortKind::report);
 }
 
-void check_paths(const Stage& stage, const Paths& paths) {
-  if (paths.output.empty()) return;
-  check_output_path(stage.output.kind, paths.output);
+void check_paths(const Stage& stage, const Paths& paths, const ShellOptions& shell) {
+  if (!paths.output.empty()) check_output_path(stage.output.kind, paths.output);
+  std::vector<NamedFile> read;
   for (const auto& [port, files] : paths.inputs) {
-    for (const std::string& path : files) {
-      std::error_code ignored;
-      if (fs::equivalent(path, paths.output, ignored)) {
-        throw UsageError("output '" + paths.output + "' is the input '" + port +
-                         "'; give another name");
-      }
-    }
+    for (const std::string& path : files) read.push_back({"input '" + port + "'", path});
   }
+  check_files(read, paths.output, shell.report_path);
+}
+
+/// Of files that are there by what they are, of others by where they would be.
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code ignored;
+  const auto place = [&](const std::string& path) {
+    return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
+  };
+  return fs::equivalent(a, b, ignored) || place(a) == place(b);
 }
 
 Input load_input(PortKind kind, const std::string& path) {
@@ -140,7 +144,7 @@ void make_output(const Stage& stage, const Paths& paths, const ShellOptions& she
 }
 
 void run_program(const Stage& stage, const Paths& paths, const ShellOptions& shell) {
-  check_paths(stage, paths);
+  check_paths(stage, paths, shell);
   StageRecord record{provenance_of(stage), {}};
   Repro repro{shell.repro, "strake-" + stage.name, {}, [&] { return record.provenance; }};
   for (const Port& port : stage.inputs) {
@@ -242,6 +246,20 @@ void add_options(CLI::App& target, const OptionList& options) {
         ->type_name(type_text(option))
         ->default_str(option.value());
   }
+}
+
+void check_files(const std::vector<NamedFile>& read, const std::string& output,
+                 const std::string& report) {
+  std::vector<NamedFile> known = read;
+  for (const auto& [role, path] : {NamedFile{"output", output}, NamedFile{"report", report}}) {
+    if (path.empty()) continue;
+    for (const NamedFile& other : known) {
+      if (other.path.empty() || !is_same_file(path, other.path)) continue;
+      throw UsageError(fmt::format("{} '{}' is the {}; give another name", role, path, other.role));
+    }
+    known.push_back({role, path});
+  }
+  if (!report.empty()) check_place("report", report);
 }
 
 void ShellOptions::add_to(CLI::App& app) {

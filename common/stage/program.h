@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/stage/console.h"
 #include "common/stage/report_text.h"
@@ -34,6 +35,17 @@ struct ShellOptions {
   /// What the running work reports to.
   [[nodiscard]] ConsoleObserver console() const;
 };
+
+/// A file that a program reads or writes, and what it is to the user: "input", "report".
+struct NamedFile {
+  std::string role;
+  std::string path;  ///< "": none
+};
+
+/// Refuses, before any work is done, files to write that are files to read, or each other; and a
+/// report that could not be written. \throw UsageError, InputError naming the file and a remedy
+void check_files(const std::vector<NamedFile>& read, const std::string& output,
+                 const std::string& report);
 
 /// Runs `body` with signals caught and with every error turned into a message and an exit code.
 /// \return what `body` returns, or the error's exit code

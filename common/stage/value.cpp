@@ -119,12 +119,16 @@ void check_output_path(PortKind kind, const fs::path& path) {
     throw UsageError("output '" + path.string() + "': the name must end in " +
                      (allowed.size() > 1 ? "one of " : "") + list);
   }
+  check_place("output", path);
+}
+
+void check_place(const std::string& role, const fs::path& path) {
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) {
-    throw UsageError("output '" + path.string() + "' is a folder; give a file name");
+    throw UsageError(role + " '" + path.string() + "' is a folder; give a file name");
   }
   if (path.has_parent_path() && !fs::is_directory(path.parent_path(), ignored)) {
-    throw InputError("output '" + path.string() + "': the folder '" + path.parent_path().string() +
+    throw InputError(role + " '" + path.string() + "': the folder '" + path.parent_path().string() +
                      "' does not exist; make it first");
   }
 }

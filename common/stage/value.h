@@ -66,6 +66,8 @@ void save_value(const std::filesystem::path& path, const Value& value, const Tri
 /// Refuses a file name that `save_value` could not write to, before any work is done.
 /// \throw UsageError, InputError naming the file and a remedy
 void check_output_path(PortKind kind, const std::filesystem::path& path);
+/// Likewise, a file of any kind. \param role  what it is to the user: "output"
+void check_place(const std::string& role, const std::filesystem::path& path);
 
 /// The mesh a value belongs to; "" where it does not say. Of a TriMesh its own id.
 std::string mesh_id_of(const Value& value);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "stages/import/feature_graph.h"
+#include "common/geometry/topology/vertex_ring.h"
 
 namespace strake::import {
 namespace {
@@ -10,14 +10,10 @@ namespace {
 Colour mean_colour_around(const TriMesh& mesh, Index vertex) {
   Colour sum{};
   int count = 0;
-  const auto add = [&](Index v) {
+  for_each_neighbour(mesh, vertex, [&](Index v) {
     if (mesh.source_vertex[v] == kNone) return;
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += mesh.attributes.colour[v][i];
     ++count;
-  };
-  for_each_outgoing(mesh, vertex, [&](Index h) {
-    add(mesh.to(h));
-    if (mesh.is_boundary(TriMesh::prev(h))) add(mesh.from(TriMesh::prev(h)));
   });
   for (double& value : sum) value /= std::max(count, 1);
   return sum;

@@ -14,17 +14,6 @@ inline void set_feature(TriMesh& mesh, Index h, bool value) {
   mesh.is_feature[h] = mesh.is_feature[mesh.twin[h]] = value ? 1 : 0;
 }
 
-/// Calls `visit` with every half-edge that leaves a vertex.
-template <typename Visit>
-void for_each_outgoing(const TriMesh& mesh, Index vertex, const Visit& visit) {
-  const Index start = mesh.vertex_out[vertex];
-  Index h = start;
-  do {
-    visit(h);
-    h = mesh.rotate_ccw(h);
-  } while (h != kNone && h != start);
-}
-
 /// Fills `is_corner` as `find_features` states. \return number of corners
 Index find_corners(TriMesh& mesh);
 

@@ -7,6 +7,7 @@
 #include <set>
 #include <vector>
 
+#include "common/geometry/topology/vertex_ring.h"
 #include "stages/import/feature_graph.h"
 
 namespace strake::import {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/geometry/angles.h"
+#include "common/geometry/topology/vertex_ring.h"
 #include "stages/import/attribute_borders.h"
 #include "stages/import/face_normals.h"
 #include "stages/import/feature_graph.h"

@@ -28,13 +28,18 @@ Place place_of(const PolyMesh& input, Index vertex) {
 
 void require_vertices(const EdgeList& list, const PolyMesh& input) {
   for (const EdgeList::Edge& edge : list.edges) {
-    const Index largest = std::max(edge.from, edge.to);
-    if (largest < input.vertex_count()) continue;
-    refuse(
-        list, edge,
-        fmt::format("there is no vertex {}, the mesh has {}; numbers count from 0 in the order of "
-                    "the mesh file",
-                    largest, input.vertex_count()));
+    for (const Index v : {edge.from, edge.to}) {
+      if (v < 0 || v >= input.vertex_count()) {
+        refuse(list, edge,
+               fmt::format("there is no vertex {}, the mesh has {}; numbers count from 0 in the "
+                           "order of the mesh file",
+                           v, input.vertex_count()));
+      }
+      // Places are compared below, and what is no number equals everything.
+      if (!input.positions[v].allFinite()) {
+        refuse(list, edge, fmt::format("vertex {} lies nowhere; leave it out", v));
+      }
+    }
   }
 }
 

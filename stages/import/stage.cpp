@@ -35,8 +35,10 @@ Stage import_stage() {
         const auto& input = inputs.get<Polygons>("input");
         const std::vector<std::string> defects = input.read.warnings();
         if (options.strict && !defects.empty()) {
-          throw InputError(inputs.at("input").origin + ": " + defects.front() +
-                           " Leave --strict out to go on without.");
+          std::string list;
+          for (const std::string& defect : defects) list += (list.empty() ? "" : ", ") + defect;
+          throw InputError(inputs.at("input").origin + ": " + list +
+                           "; leave --strict out to go on without");
         }
         ImportResult result = import_file(inputs, options, observer);
         input.read.add_to(result.report);

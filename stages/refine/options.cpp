@@ -16,6 +16,13 @@ OptionList RefineOptions::declare() {
        .help = "Divide the cells farthest from the surface, up to about this number of vertices.",
        .min = 4,
        .max = 1e8},
+      {.name = "refine-sides",
+       .target = &sides,
+       .unit = "",
+       .help = "Largest number of corners that a face beside a divided cell may get; larger ones "
+               "are divided, too. 5; strake remesh takes --max-sides.",
+       .min = 4,
+       .max = 64},
       {.name = "refine-rounds",
        .target = &rounds,
        .unit = "",

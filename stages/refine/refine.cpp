@@ -34,7 +34,7 @@ namespace {
 /// Of the tolerance, kept for the rounding of whoever measures again.
 constexpr double kMargin = 1e-3;
 constexpr const char* kFinishing = "finishing cells";
-constexpr std::size_t kLeastMaxSides = 5;
+constexpr std::int64_t kMostSides = 5;
 /// Heights below this share of what a cell is off by do not explain it.
 constexpr double kExplains = 0.25;
 constexpr std::size_t kNamedPlaces = 5;
@@ -57,12 +57,12 @@ constexpr double kVerticesPerCell = 1.5;
 
 class Refinement {
  public:
-  Refinement(const TriMesh& mesh, QuadMesh quads)
+  Refinement(const TriMesh& mesh, QuadMesh quads, std::int64_t most_sides)
       : mesh_(mesh),
         quads_(std::move(quads)),
         points_(mesh),
         crossing_(mesh),
-        max_sides_(kLeastMaxSides) {
+        max_sides_(static_cast<std::size_t>(most_sides)) {
     for (Index f = 0; f < quads_.mesh.face_count(); ++f) {
       max_sides_ = std::max(max_sides_, quads_.mesh.face(f).size());
     }
@@ -405,7 +405,7 @@ RefineResult refine_cells(const TriMesh& mesh, const QuadMesh& quads, const Refi
   if (options.tolerance && options.vertices) {
     throw UsageError("give only one of --refine-tolerance and --refine-vertices");
   }
-  Refinement refinement(mesh, quads);
+  Refinement refinement(mesh, quads, options.sides.value_or(kMostSides));
   RefineResult result;
   std::int64_t rounds = 0;
   if (options.tolerance) {

@@ -13,6 +13,7 @@ namespace strake {
 struct RefineOptions {
   std::optional<Length> tolerance;       ///< divide cells that are farther from the surface
   std::optional<std::int64_t> vertices;  ///< divide the worst cells until there are as many
+  std::optional<std::int64_t> sides;     ///< most corners that a face may get; 5
   std::int64_t rounds = 16;
   bool partly = false;  ///< hand on a result that is not within the tolerance yet
 

@@ -161,7 +161,8 @@ TraceResult trace_lines(const TriMesh& mesh, const PrincipalField& field,
   for (Index l = static_cast<Index>(barriers.size()); l < result.lines.line_count(); ++l) {
     closed += result.lines.is_closed(l);
   }
-  result.report.set("trace.tolerance", tolerance);
+  // Sizes say by themselves what is wanted where.
+  if (sizes.size == nullptr) result.report.set("trace.tolerance", tolerance);
   result.report.set("trace.lines", static_cast<std::int64_t>(result.lines.line_count()));
   result.report.set("trace.feature_and_boundary_lines", barriers.size());
   result.report.set("trace.closed_lines", static_cast<std::int64_t>(closed));

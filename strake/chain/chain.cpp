@@ -151,11 +151,14 @@ std::string Chain::run(Session& session) const {
   check_goals();
   const std::string tolerance = trace.option("tolerance").value();
   const Option& height = import.option("feature-height");
-  if (!tolerance.empty() && height.value().empty()) {
+  const bool keeps_features = std::stod(import.option("feature-angle").value()) < 180;
+  if (!tolerance.empty() && height.value().empty() && keeps_features) {
     Length ridge = Length::parse(tolerance);
     ridge.value *= kRidgeHeight;
     height.parse_into(ridge.to_string());
   }
+  const Option& sides = refine.option("refine-sides");
+  if (sides.value().empty()) sides.parse_into(mesh.option("max-sides").value());
   session.run(import);
   session.keep(import);
   session.withdraw("input");  // as large as all that is needed afterwards

@@ -28,7 +28,8 @@ std::optional<Session> on_coarser_mesh(const Session& session, const GoalStages&
   const double wanted = ratio * static_cast<double>(vertices);
   if (!(wanted > 0) || own <= kMuchFiner * wanted || session.has("guides")) return std::nullopt;
   Session coarser = session;
-  stages.coarsen.option("coarse-vertices").parse_into(std::to_string(std::llround(wanted)));
+  const Option& coarse = stages.coarsen.option("coarse-vertices");
+  coarse.parse_into(std::to_string(std::llround(std::max(wanted, coarse.min))));
   coarser.run(stages.coarsen);
   if (own < kMuchFiner * coarser.get<TriMesh>("coarse").vertex_count()) return std::nullopt;
   coarser.keep(stages.coarsen);

@@ -15,6 +15,7 @@
 #include "common/core/error.h"
 #include "strake/commands.h"
 #include "strake/run/pipeline_options.h"
+#include "strake/run/run_folder.h"
 #include "strake/run/survey.h"
 
 namespace strake {
@@ -22,8 +23,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Records of runs that are younger are kept.
-constexpr double kKeepRunsSeconds = 7 * 86400.0;
+/// Records of runs that are younger are kept; those with steps that have not ended, as jobs of a
+/// cluster may wait for long.
+constexpr std::chrono::hours kKeepEndedRuns{7 * 24};
+constexpr std::chrono::hours kKeepRuns{90 * 24};
 
 struct GcCommand {
   PipelineOptions pipeline;
@@ -88,13 +91,14 @@ void GcCommand::remove(const Store& store, const Store::Listed& listed, const ch
 /// Removes records of runs that ended long ago.
 void remove_old_runs(const Store& store) {
   std::error_code ignored;
-  const auto limit = fs::file_time_type::clock::now() -
-                     std::chrono::seconds(static_cast<std::int64_t>(kKeepRunsSeconds));
-  for (const auto& run : fs::directory_iterator(store.side_folder("runs"), ignored)) {
+  const auto now = fs::file_time_type::clock::now();
+  for (const auto& folder : fs::directory_iterator(store.side_folder("runs"), ignored)) {
+    const RunFolder run(folder.path());
     std::error_code error;
     fs::file_time_type written = fs::last_write_time(run.path() / "outcomes", error);
     if (error) written = fs::last_write_time(run.path(), error);  // it is being made just now
-    if (!error && written < limit) fs::remove_all(run.path(), ignored);
+    const auto kept = run.has_ended() ? kKeepEndedRuns : kKeepRuns;
+    if (!error && written < now - kept) fs::remove_all(run.path(), ignored);
   }
   store.empty_trash();
 }
@@ -111,6 +115,7 @@ int GcCommand::run() const {
   const Description description = pipeline.read();
   const Store store(description.store, dry_run ? Store::Access::look_only : Store::Access::full);
   store.check_format();
+  store.require_own();
   const std::set<fs::path> needed =
       unreachable ? reachable(description, store) : std::set<fs::path>();
 

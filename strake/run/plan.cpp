@@ -225,6 +225,10 @@ class Planner {
     }
     for (const ModelEntry& model : description_.models) {
       if (model.file == file) place.fail(fmt::format("'{}' is the model '{}'", file, model.name));
+      for (const auto& [name, input] : model.inputs) {
+        if (input != file) continue;
+        place.fail(fmt::format("'{}' is the '{}' of the model '{}'", file, name, model.name));
+      }
     }
     const auto [writer, is_new] = writers_.emplace(file, step);
     if (!is_new && writer->second != step) {

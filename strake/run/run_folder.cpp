@@ -197,6 +197,14 @@ std::optional<StepOutcome> RunFolder::outcome(const std::string& id) const {
   });
 }
 
+bool RunFolder::has_ended() const {
+  std::error_code ignored;
+  const auto steps = fs::directory_iterator(path_ / "steps", ignored);
+  return std::all_of(begin(steps), end(steps), [&](const fs::directory_entry& order) {
+    return fs::exists(outcome_file(order.path().stem().string()), ignored);
+  });
+}
+
 fs::path RunFolder::outcome_file(const std::string& id) const {
   return path_ / "outcomes" / (id + ".json");
 }

@@ -90,6 +90,9 @@ class RunFolder {
   /// Nothing where the step has not ended.
   [[nodiscard]] std::optional<StepOutcome> outcome(const std::string& id) const;
 
+  /// Whether every step that was ordered has.
+  [[nodiscard]] bool has_ended() const;
+
   [[nodiscard]] std::filesystem::path outcome_file(const std::string& id) const;
   [[nodiscard]] std::filesystem::path log_file(const std::string& id) const;
   /// Holds what a running step is at: one line for people.

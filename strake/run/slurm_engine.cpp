@@ -91,7 +91,9 @@ std::size_t cancel_superseded(const std::vector<QueuedTask>& queue, const Store&
   std::set<std::string> jobs;
   std::size_t tasks = 0;
   for (const QueuedTask& task : queue) {
-    const bool is_ours = task.folder.parent_path() == store.side_folder("runs");
+    std::error_code ignored;  // the queue may know the folder by another name
+    const bool is_ours =
+        fs::equivalent(task.folder.parent_path(), store.side_folder("runs"), ignored);
     if (!task.waits || !is_ours || !is_superseded(task.folder, settings)) continue;
     jobs.insert(task.job);
     ++tasks;

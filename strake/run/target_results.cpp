@@ -12,7 +12,8 @@ namespace {
 
 void add(const Step& step, const Entry& entry, TargetResults& results) {
   // Parts are of one stage with what they are parts of.
-  const std::string stage = step.program.substr(0, step.program.find('-'));
+  const std::string stage =
+      step.is_part ? step.program.substr(0, step.program.rfind('-')) : step.program;
   results.seconds[stage] += entry.seconds;
   if (!step.is_part) results.files.push_back(entry.file);
 }

@@ -172,6 +172,7 @@ TEST_F(Damage, IndicesOutOfRangeAndNumbersThatAreNoneAreRefused) {
   refuses(ArtifactKind::lines, "/lines/seed_point", 1, H5T_NATIVE_INT32, 1000000);
   refuses(ArtifactKind::quads, "/quads/corners", 3, H5T_NATIVE_INT32, 40);
   refuses(ArtifactKind::quads, "/quads/offsets", 1, H5T_NATIVE_INT32, 2);
+  refuses(ArtifactKind::quads, "/quads/source_face", 1, H5T_NATIVE_INT32, -1);
   refuses(ArtifactKind::tensor_part, "/tensor_part/part", 0, H5T_NATIVE_INT32, 0);
   refuses(ArtifactKind::tensor_part, "/tensor_part/part", 0, H5T_NATIVE_INT32, 4);
   refuses(ArtifactKind::tensor_part, "/tensor_part/parts", 0, H5T_NATIVE_INT32, 0);

@@ -145,6 +145,10 @@ TEST_F(AttributeFiles, ListsOfEdgesThatMakeNoSenseAreRefused) {
     must_fail(3, "strake remesh sheet.obj -o out.obj" + flags, message);
   }
   must_fail(3, "strake-import sheet.obj -o mesh.hdf -q --feature-edges none.txt", "none.txt");
+  put("hole.obj", "v nan 0 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 2 3 4\n");
+  put("edges.txt", "1 2\n0 2\n");
+  must_fail(3, "strake-import hole.obj -o mesh.hdf -q --feature-edges edges.txt",
+            "line 2: vertex 0 lies nowhere");
 }
 
 TEST_F(AttributeFiles, CanBeLeftOut) {

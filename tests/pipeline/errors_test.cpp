@@ -1,4 +1,5 @@
 #include <array>
+#include <filesystem>
 
 #include "common/artifact/artifact.h"
 #include "tests/pipeline/run_program.h"
@@ -32,6 +33,10 @@ TEST_F(Errors, WrongUsage) {
   must_fail(kUsage, "strake remesh torus.ply -o torus.stl", ".obj");
   must_fail(kUsage, "strake remesh torus.ply -o torus.ply", "is the input");
   must_fail(kUsage, "strake remesh torus.ply -o x.obj --vertices 100 --faces 100", "exclude");
+  must_fail(kUsage, "strake remesh torus.ply -o ./guides.obj --guides guides.obj", "'guides'");
+  must_fail(kUsage, "strake remesh torus.ply -o x.obj --report torus.ply", "is the input");
+  must_fail(kUsage, "strake remesh torus.ply -o x.obj --report ./x.obj", "is the output");
+  must_fail(kUsage, "strake-tensor mesh.hdf -o t.hdf --report mesh.hdf", "is the input");
   must_fail(kUsage, "strake remesh torus.ply -o x.obj --extension papier", "cross, paper");
   must_fail(kUsage, "strake nothing", "no command");
   must_fail(kUsage, "strake", "subcommand");
@@ -44,6 +49,9 @@ TEST_F(Errors, MissingAndUnreadableFiles) {
   must_fail(kBadInput, "strake remesh . -o x.obj", ".: cannot be read");
   must_fail(kBadInput, "strake-tensor mesh.hdf -o nowhere/t.hdf", "nowhere");
   must_fail(kBadInput, "strake info nowhere.obj", "nowhere.obj");
+  must_fail(kBadInput, "strake remesh torus.ply -o x.obj --report nowhere/r.json", "nowhere");
+  must_fail(kBadInput, "strake-tensor mesh.hdf -o t.hdf --report nowhere/r.json", "nowhere");
+  for (const char* output : {"x.obj", "t.hdf"}) EXPECT_FALSE(std::filesystem::exists(file(output)));
 }
 
 /// Whoever keeps only the last line of what is said finds the error there.

@@ -94,8 +94,33 @@ TEST_F(FrontEnd, KeepsTheRidgesOfCoarseMeshes) {
   for (const Vec3& p : read("out.obj").positions) {
     EXPECT_NEAR(p.z(), 0.2679 * (1 - std::abs(p.x() - 1)), 1e-6);
   }
-  must("strake remesh roof.obj --feature-height 100%" + flags);
-  EXPECT_EQ(result("import").at("features").at("ridge_edges"), 0);
+  for (const std::string without : {"--feature-height 100%", "--feature-angle 180"}) {
+    must("strake remesh roof.obj " + without + flags);
+    EXPECT_EQ(result("import").at("features").at("ridge_edges"), 0) << without;
+  }
+}
+
+TEST_F(FrontEnd, KeepsToTheMostSides) {
+  for (const std::string goal : {"--vertices 300", "--tolerance 0.2%"}) {
+    must("strake remesh torus.ply -q -o out.obj --max-sides 4 " + goal);
+    must("strake check out.obj --max-sides 4");
+  }
+}
+
+TEST_F(FrontEnd, AFolderHoldsTheLastRunAlone) {
+  must("strake remesh torus.ply -q -o out.obj --keep kept --vertices 400");
+  EXPECT_TRUE(std::filesystem::exists(file("kept/refined.hdf")));
+  put("kept/mine.txt", "a note");
+  must("strake remesh torus.ply -q -o out.obj --keep kept --no-evaluate");
+  for (const char* gone : {"refined.hdf", "refine.json", "evaluate.json"}) {
+    EXPECT_FALSE(std::filesystem::exists(file("kept") / gone)) << gone;
+  }
+  EXPECT_TRUE(std::filesystem::exists(file("kept/lines.hdf")));
+  EXPECT_EQ(bytes("kept/mine.txt"), "a note");
+}
+
+TEST_F(FrontEnd, TakesAnyRatioOfTheWorkingMesh) {
+  must("strake remesh torus.ply -q --no-evaluate -o out.obj --vertices 100 --working-ratio 0.01");
 }
 
 /// Of a sphere whose upper half is wanted twice as dense.

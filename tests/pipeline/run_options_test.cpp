@@ -273,6 +273,34 @@ TEST_F(Collection, FoldersOfRunsThatBeginStay) {
   EXPECT_FALSE(fs::exists(run));
 }
 
+TEST_F(Collection, RunsThatHaveNotEndedStayLonger) {
+  const fs::path runs = file("store") / ".runs";
+  const auto age = [&](int days) {
+    for (const auto& run : fs::directory_iterator(runs)) {
+      const auto then = fs::file_time_type::clock::now() - std::chrono::hours(days * 24);
+      fs::last_write_time(run.path() / "outcomes", then);
+    }
+  };
+  const fs::path waiting = fs::directory_iterator(runs)->path();
+  fs::remove(fs::directory_iterator(waiting / "outcomes")->path());
+  age(8);
+  must("strake gc --unreachable");
+  EXPECT_TRUE(fs::exists(waiting));
+  EXPECT_EQ(std::distance(fs::directory_iterator(runs), {}), 1);
+  age(91);
+  must("strake gc --unreachable");
+  EXPECT_FALSE(fs::exists(waiting));
+}
+
+TEST_F(Collection, NothingGoesFromAFolderThatIsNoStore) {
+  fs::create_directories(file("photos/2024/summer-0123456789abcdef"));
+  put("pipeline.yaml",
+      "version: 1\nstore: photos\nstages: {import: {}}\n"
+      "models: {torus: {sample: {kind: torus, faces: 2000}}}\n");
+  must_fail(kBadInput, "strake gc --unreachable", "is no store");
+  EXPECT_TRUE(fs::exists(file("photos/2024/summer-0123456789abcdef")));
+}
+
 TEST_F(Collection, WhatIsBeingMadeStays) {
   const std::string entry = entries().front();
   const EntryLock maker(file("store") / entry);

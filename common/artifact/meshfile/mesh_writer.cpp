@@ -91,11 +91,27 @@ class TextureNumbers {
   std::vector<Index> of_corner_;
 };
 
-/// The OBJ statement that begins a part: labels of other formats become groups.
-void print_part(const FaceLabels& labels, Index face, OutputFile& out) {
+/// The OBJ statement for each kind of labels: its own, or for those of other formats the next one
+/// that is free, groups first; "" where none is left.
+std::vector<std::string_view> part_statements(const std::vector<FaceLabels>& kinds) {
+  std::vector<std::string_view> free = {"g", "o", "usemtl"};
+  std::vector<std::string_view> statements(kinds.size());
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    const auto own = std::ranges::find(free, kinds[i].name);
+    if (own == free.end()) continue;
+    statements[i] = *own;
+    free.erase(own);
+  }
+  for (std::string_view& statement : statements) {
+    if (!statement.empty() || free.empty()) continue;
+    statement = free.front();
+    free.erase(free.begin());
+  }
+  return statements;
+}
+
+void print_part(std::string_view statement, const FaceLabels& labels, Index face, OutputFile& out) {
   const Index number = labels.of_face[face];
-  const bool is_statement = labels.name == "o" || labels.name == "g" || labels.name == "usemtl";
-  const std::string_view statement = is_statement ? std::string_view(labels.name) : "g";
   if (number >= 0 && static_cast<std::size_t>(number) < labels.names.size()) {
     out.print("{} {}\n", statement, labels.names[number]);
   } else {
@@ -116,9 +132,12 @@ void write_obj(const PolyMesh& mesh, OutputFile& out) {
   }
   const TextureNumbers texture(attributes.texture);
   for (const auto& [s, t] : texture.points()) out.print("vt {} {}\n", s, t);
+  const std::vector<std::string_view> statements = part_statements(attributes.labels);
   for (Index f = 0; f < mesh.face_count(); ++f) {
-    for (const FaceLabels& labels : attributes.labels) {
-      if (f == 0 || labels.of_face[f] != labels.of_face[f - 1]) print_part(labels, f, out);
+    for (std::size_t i = 0; i < statements.size(); ++i) {
+      const FaceLabels& labels = attributes.labels[i];
+      const bool begins = f == 0 || labels.of_face[f] != labels.of_face[f - 1];
+      if (begins && !statements[i].empty()) print_part(statements[i], labels, f, out);
     }
     out.print("f");
     for (Index c = mesh.offsets[f]; c < mesh.offsets[f + 1]; ++c) {

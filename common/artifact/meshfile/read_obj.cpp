@@ -89,6 +89,8 @@ class ObjReader {
 
  private:
   static constexpr Colour kWhite = {1, 1, 1, 1};
+  /// Where a colour has this much, all go from 0 to 255; shares may be a little above 1.
+  static constexpr double kLeastByte = 2;
 
   /// Labels of one kind, and the one that is in force.
   struct Layer {
@@ -144,9 +146,10 @@ class ObjReader {
     attributes().colour.resize(mesh_.positions.size(), kWhite);
     double largest = 0;
     for (const Colour& c : attributes().colour) largest = std::max({largest, c[0], c[1], c[2]});
+    const bool is_bytes = largest >= kLeastByte;
     for (Colour& c : attributes().colour) {
       for (int i = 0; i < 3; ++i) {
-        c[i] = std::isfinite(c[i]) ? std::clamp(c[i] / (largest > 1 ? 255 : 1), 0.0, 1.0) : 1;
+        c[i] = std::isfinite(c[i]) ? std::clamp(c[i] / (is_bytes ? 255 : 1), 0.0, 1.0) : 1;
       }
     }
   }

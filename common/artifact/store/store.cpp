@@ -95,6 +95,13 @@ std::string fault_of(Entry& entry, Store::Check check) {
   return "";
 }
 
+/// Whether a folder below that of a model is one that `EntryName::folder` names.
+bool is_entry_folder(const std::string& name) {
+  const std::size_t dash = name.rfind('-');
+  return dash != std::string::npos && dash > 0 && name.size() - dash - 1 == kKeyDigitsInName &&
+         name.find_first_not_of("0123456789abcdef", dash + 1) == std::string::npos;
+}
+
 }  // namespace
 
 std::string key_of(const Provenance& provenance, const std::string& file_extension) {
@@ -118,6 +125,14 @@ void Store::check_format() const {
                     "strake made it; use that one, or another store",
                     root_.string(), format.dump(), kStoreFormat));
   }
+}
+
+void Store::require_own() const {
+  std::error_code ignored;
+  if (!fs::exists(root_, ignored) || fs::exists(root_ / kFormatFile, ignored)) return;
+  throw InputError(
+      fmt::format("'{}' is no store: it has no '{}'; correct 'store' in the pipeline file",
+                  root_.string(), kFormatFile));
 }
 
 void Store::prepare() const {
@@ -190,7 +205,9 @@ std::vector<Store::Listed> Store::list(const std::string& model) const {
   std::vector<Listed> all;
   for (const fs::path& path : models) {
     for (const auto& folder : fs::directory_iterator(path, ignored)) {
-      if (!folder.is_directory(ignored)) continue;
+      if (!folder.is_directory(ignored) || !is_entry_folder(folder.path().filename().string())) {
+        continue;
+      }
       Listed listed;
       listed.folder = folder.path().lexically_relative(root_);
       listed.entry = read_manifest(folder.path(), nullptr);

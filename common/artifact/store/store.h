@@ -65,6 +65,8 @@ class Store {
 
   /// \throw InputError where a newer strake uses the folder
   void check_format() const;
+  /// \throw InputError where the folder is there, but holds no store: nothing may go from it
+  void require_own() const;
   /// Makes the folder where it is missing. \throw InputError where that fails
   void prepare() const;
 

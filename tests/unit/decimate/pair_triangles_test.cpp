@@ -78,6 +78,7 @@ TEST(PairTriangles, DividesFlatsAnew) {
 
 TEST(PairTriangles, FacesKeepTheirOrientation) {
   const PolyMesh result = pair_triangles(strip());
+  ASSERT_GT(result.face_count(), 0);
   for (Index f = 0; f < result.face_count(); ++f) {
     EXPECT_GT(newell_normal(result.positions, result.face(f)).z(), 0);
   }

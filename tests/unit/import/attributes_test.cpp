@@ -37,6 +37,16 @@ TEST(Attributes, OfAnObjFile) {
   EXPECT_TRUE(parsed("v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nf 1 2 3\n", ".obj").attributes.empty());
 }
 
+TEST(Attributes, ColoursALittleAboveOneAreShares) {
+  const auto first = [](const std::string& red) {
+    const std::string text = "v 0 0 0 " + red + " 0 0\nv 1 0 0 0.5 0 0\nv 1 1 0 0 0 0\nf 1 2 3\n";
+    return parsed(text, ".obj").attributes.colour;
+  };
+  EXPECT_EQ(first("1.0001")[0][0], 1);
+  EXPECT_EQ(first("1.0001")[1][0], 0.5);
+  EXPECT_EQ(first("51")[0][0], 0.2);
+}
+
 TEST(Attributes, OfFacesThatAreSkippedAreSkipped) {
   ReadReport report;
   const PolyMesh mesh = parse_mesh(
@@ -126,6 +136,26 @@ void expect_carried(const PolyMesh& input, const TriMesh& mesh) {
     }
     EXPECT_EQ(mesh.attributes.labels[0].of_face[h / 3], input.attributes.labels[0].of_face[f]);
   }
+}
+
+TEST(Attributes, EveryKindOfLabelsIsAStatementOfItsOwn) {
+  PolyMesh mesh = shapes::cube();
+  const std::vector<std::string> kinds = {"label", "usemtl", "region", "part"};
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    FaceLabels labels{kinds[i], {}, {}};
+    for (Index f = 0; f < 6; ++f) labels.of_face.push_back(f / (static_cast<Index>(i) + 1));
+    mesh.attributes.labels.push_back(labels);
+  }
+  const fs::path path = fs::path(testing::TempDir()) / "strake-labels.obj";
+  write_mesh(path, mesh);
+  ReadReport report;
+  const PolyMesh read = read_mesh(path, report);
+  fs::remove(path);
+  // Object, group and material as these are listed; there is no statement for a fourth.
+  ASSERT_EQ(read.attributes.labels.size(), 3u);
+  EXPECT_EQ(read.attributes.labels[0].of_face, mesh.attributes.labels[2].of_face);
+  EXPECT_EQ(read.attributes.labels[1].of_face, mesh.attributes.labels[0].of_face);
+  EXPECT_EQ(read.attributes.labels[2].of_face, mesh.attributes.labels[1].of_face);
 }
 
 TEST(Attributes, SurviveTriangulationAndOrdering) {

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 
+#include "common/geometry/topology/vertex_ring.h"
 #include "stages/import/feature_graph.h"
 #include "tests/unit/import/shapes.h"
 
@@ -33,13 +34,13 @@ void draw(TriMesh& mesh, const std::vector<Vec3>& points) {
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     const Index to = vertex_at(mesh, points[i + 1]);
     bool found = false;
-    import::for_each_outgoing(mesh, vertex_at(mesh, points[i]), [&](Index h) {
+    for_each_outgoing(mesh, vertex_at(mesh, points[i]), [&](Index h) {
       if (mesh.to(h) != to) return;
-    import::set_feature(mesh, h, true);
-    found = true;
-  });
-  EXPECT_TRUE(found) << "no edge to " << points[i + 1].transpose();
-}
+      import::set_feature(mesh, h, true);
+      found = true;
+    });
+    EXPECT_TRUE(found) << "no edge to " << points[i + 1].transpose();
+  }
 }  // namespace
 
 /// Edges that are left of those drawn, where the ground is as rough everywhere.
@@ -152,5 +153,5 @@ TEST(FeatureNoise, IsALumpAmidNoiseButNoSpikeOnAFlat) {
   EXPECT_EQ(edges_of_spike(0.05), 0);
 }
 
-}  // namespace strake
+}  // namespace
 }  // namespace strake

@@ -1,9 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <numbers>
 
 #include "common/core/error.h"
+#include "common/geometry/density.h"
+#include "tests/support/attributed.h"
 #include "tests/support/mesh_support.h"
 #include "tests/unit/import/shapes.h"
 
@@ -249,6 +253,55 @@ TEST(Repair, StrictRefusesWithAListAndAcceptsSoundMeshes) {
     const std::string message = error.what();
     EXPECT_NE(message.find("turned over"), std::string::npos) << message;
     EXPECT_NE(message.find("a vertex twice"), std::string::npos) << message;
+  }
+}
+
+/// Two slabs of four cubes on two cubes that touch along an edge: there four sheets meet, and the
+/// ends of the edge belong to all.
+PolyMesh slabs_on_diagonal_cubes() {
+  PolyMesh faces;
+  const auto is_full = [](int x, int y, int z) {
+    const bool is_inside = x >= 0 && x < 2 && y >= 0 && y < 2 && z >= 0 && z < 3;
+    return is_inside && (z != 1 || x == y);
+  };
+  const std::array<Vec3, 6> towards = {-Vec3::UnitZ(), Vec3::UnitZ(),  -Vec3::UnitY(),
+                                       Vec3::UnitY(),  -Vec3::UnitX(), Vec3::UnitX()};
+  for (int i = 0; i < 12; ++i) {
+    const Vec3 place(i & 1, (i >> 1) & 1, i >> 2);
+    const PolyMesh cube = shapes::cube(place);
+    for (Index f = 0; f < cube.face_count(); ++f) {
+      const Vec3 beyond = place + towards[f];
+      if (!is_full(i & 1, (i >> 1) & 1, i >> 2) ||
+          is_full(int(beyond.x()), int(beyond.y()), int(beyond.z()))) {
+        continue;
+      }
+      const Index first = faces.vertex_count();
+      for (const Index v : cube.face(f)) faces.positions.push_back(cube.positions[v]);
+      faces.add_face(std::array<Index, 4>{first, first + 1, first + 2, first + 3});
+    }
+  }
+  return shapes::merged(faces);
+}
+
+TEST(Repair, InsertedVerticesTakeColoursAndDensityFromAround) {
+  PolyMesh input = slabs_on_diagonal_cubes();
+  support::colour_linearly(input);
+  const ImportResult result = imported(input);
+  const std::vector<Index>& source = result.mesh.source_vertex;
+  ASSERT_GT(std::ranges::count(source, kNone), 0);
+  DensityField density;
+  for (const Vec3& p : input.positions) density.value.push_back(1 + p.z());
+  const std::vector<double> at_wedge = density_at_wedges(result.mesh, density);
+  for (Index w = 0; w < result.mesh.wedge_count(); ++w) {
+    const Index v = result.mesh.wedge_vertex[w];
+    const double z = result.mesh.positions[v].z() + result.mesh.origin.z();
+    if (source[v] != kNone) {
+      EXPECT_DOUBLE_EQ(at_wedge[w], 1 + z);
+      continue;
+    }
+    EXPECT_GT(at_wedge[w], 1);
+    EXPECT_LT(at_wedge[w], 4);
+    EXPECT_GT(result.mesh.attributes.colour[v][3], 0);
   }
 }
 

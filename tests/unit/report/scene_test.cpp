@@ -245,12 +245,14 @@ TEST(ReportScene, FacesKnowTheirAngleToTheCurvature) {
         report::result_scene(grid.quads.provenance,
                              report::measure_edges(grid.mesh, &field, grid.quads), errors, blocks);
     const auto rows = decode<std::array<std::uint8_t, 4>>(scene.at("face_rows"), unpacked(blocks));
+    EXPECT_EQ(rows.size(), static_cast<std::size_t>(grid.quads.mesh.face_count()));
     for (const auto& row : rows) EXPECT_EQ(row[1], std::lround(2 * folded)) << turn;
   }
   Blocks blocks;
   const Json scene = report::result_scene(
       grid.quads.provenance, report::measure_edges(grid.mesh, nullptr, grid.quads), errors, blocks);
   const auto rows = decode<std::array<std::uint8_t, 4>>(scene.at("face_rows"), unpacked(blocks));
+  EXPECT_EQ(rows.size(), static_cast<std::size_t>(grid.quads.mesh.face_count()));
   for (const auto& row : rows) EXPECT_EQ(row[1], 127) << "no field, no angle";
 }
 

@@ -166,13 +166,26 @@ TEST_F(StoreTest, ListsEntriesOfAllModelsOrOne) {
   add();
   name_.model = "sphere";
   add();
-  fs::create_directories(store_.root() / "sphere" / "mesh-0000");  // being made
+  fs::create_directories(store_.root() / "sphere" / "mesh-0000000000000000");  // being made
   ASSERT_EQ(store_.list().size(), 3u);
-  EXPECT_EQ(store_.list()[0].folder, "sphere/mesh-0000");
+  EXPECT_EQ(store_.list()[0].folder, "sphere/mesh-0000000000000000");
   EXPECT_FALSE(store_.list()[0].entry);
   EXPECT_EQ(store_.list("torus").size(), 1u);
   EXPECT_EQ(store_.list("missing").size(), 0u);
   EXPECT_GT(store_.list("torus")[0].bytes, 5);
+}
+
+TEST_F(StoreTest, ListsNothingElse) {
+  for (const char* name : {"2024", "mesh-0000", "-0123456789abcdef", "mesh-0123456789abcdeg"}) {
+    fs::create_directories(store_.root() / "photos" / name);
+  }
+  EXPECT_EQ(store_.list().size(), 0u);
+}
+
+TEST_F(StoreTest, OtherFoldersAreToldFromStores) {
+  store_.require_own();
+  Store(folder_ / "missing").require_own();
+  EXPECT_THROW(Store(folder_).require_own(), InputError);
 }
 
 TEST_F(StoreTest, OtherFormatsAreRefused) {
