@@ -25,6 +25,9 @@ constexpr const char* kPhase = "replacing faces that cross";
 constexpr CellSampling kSampling = {.rows = 2, .input_step = 1};
 /// Distance by which inlays are thinned out, in root mean squares of the result's.
 constexpr double kThinnedBy = 2;
+/// Least tolerance that is proven, of the diagonal: what is exact but for rounding would be cut to
+/// pieces without end. The same as that of refining.
+constexpr double kLeastTolerance = 1e-6;
 
 /// The result with inlays; as it is where there are none.
 QuadMesh with_inlays(const TriMesh& mesh, const QuadMesh& quads, CrossingPlaces& crossing,
@@ -32,14 +35,14 @@ QuadMesh with_inlays(const TriMesh& mesh, const QuadMesh& quads, CrossingPlaces&
   const auto input = std::make_shared<const InputSurface>(mesh);
   const ComparedSurfaces surfaces(input, quads);
   const ErrorMap errors = measure_cells(surfaces, kSampling);
-  if (!(errors.rms > 0)) return quads;
-  ToleranceProof proof(input, errors.largest);
+  const double least = kLeastTolerance * mesh.diagonal;
+  ToleranceProof proof(input, std::max(errors.largest, least));
   proof.report_to(observer, kPhase);
   proof.assume(surfaces);
   QuadMesh inlaid = quads;
   inlaid.mesh.attributes = {};  // carried over anew at the end
-  const std::vector<char> is_of_inlay =
-      inlay_crossing(proof, crossing, std::min(proof.tolerance(), kThinnedBy * errors.rms), inlaid);
+  const double thinned_by = std::min(proof.tolerance(), std::max(kThinnedBy * errors.rms, least));
+  const std::vector<char> is_of_inlay = inlay_crossing(proof, crossing, thinned_by, inlaid);
   if (is_of_inlay.empty()) return quads;
   pair_odd_cells_within(proof, SurfacePoints(mesh), is_of_inlay, inlaid);
   return inlaid;

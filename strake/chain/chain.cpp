@@ -8,6 +8,8 @@
 #include <variant>
 
 #include "common/core/error.h"
+#include "common/core/fields.h"
+#include "common/core/poly_mesh.h"
 #include "common/core/tolerance_error.h"
 #include "common/geometry/face_crossings/crossing_places.h"
 #include "stages/coarsen/stage.h"
@@ -33,13 +35,27 @@ namespace {
 constexpr double kRidgeHeight = 2;
 
 /// What one sees at once in a result should not be a surprise.
+/// \throw PreconditionError where a density is one of another file's vertices
+void require_density_of_input(const Session& session) {
+  if (!session.has("density")) return;
+  const std::size_t given = session.get<DensityField>("density").value.size();
+  const std::size_t vertices = session.get<Polygons>("input").mesh.positions.size();
+  if (given == vertices) return;
+  throw PreconditionError(
+      fmt::format("the density has {} vertices, and the mesh {}: give one of "
+                  "the vertices of that file",
+                  given, vertices));
+}
+
 void warn_of_crossing(Session& session, const std::string& port) {
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
   const std::size_t faces = crossing.faces_of(session.get<QuadMesh>(port).mesh).size();
   if (faces == 0) return;
   session.say(fmt::format(
-      "warning: {} face(s) of the result cross others although the input does not there: cells are "
-      "larger than its details or than the space between its sheets; ask for more of them",
+      "warning: {} face(s) of the result cross others where the input does not (those where it "
+      "does "
+      "are not counted): cells are larger than its details or than the space between its sheets; "
+      "ask for more of them",
       faces));
 }
 
@@ -143,12 +159,13 @@ std::string Chain::reach_goal(Session& session) const {
                       lines_only, working_ratio);
   }
   const std::string tolerance = trace.option("tolerance").value();
-  if (tolerance.empty()) return follow_spacing(session, goal_stages);
+  if (tolerance.empty()) return follow_spacing(session, goal_stages, feedback_rounds);
   return meet_tolerance(session, goal_stages, tolerance, feedback_rounds);
 }
 
 std::string Chain::run(Session& session) const {
   check_goals();
+  require_density_of_input(session);
   const std::string tolerance = trace.option("tolerance").value();
   const Option& height = import.option("feature-height");
   const bool keeps_features = std::stod(import.option("feature-angle").value()) < 180;

@@ -29,7 +29,7 @@ void CountSearch::record(double scale, std::int64_t count) { trials_.push_back({
 
 const CountSearch::Trial& CountSearch::best() const {
   return *std::min_element(trials_.begin(), trials_.end(), [&](const Trial& a, const Trial& b) {
-    return error(a.count) < error(b.count);
+    return std::abs(excess(a)) < std::abs(excess(b));
   });
 }
 
@@ -42,7 +42,7 @@ std::optional<std::pair<CountSearch::Trial, CountSearch::Trial>> CountSearch::ne
   for (std::size_t i = 1; i < by_scale.size(); ++i) {
     const Trial& many = by_scale[i - 1];
     const Trial& few = by_scale[i];
-    const double errors = error(many.count) + error(few.count);
+    const double errors = excess(many) - excess(few);
     if (!(excess(many) > 0) || excess(few) > 0 || !(errors < least)) continue;
     least = errors;
     nearest = {many, few};

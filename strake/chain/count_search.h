@@ -33,7 +33,8 @@ class CountSearch {
   /// Tells what came of the scale that `next` gave.
   void record(double scale, std::int64_t count);
 
-  /// The trial nearest to the target. \pre one was recorded
+  /// The trial whose ratio to the target is nearest to one: half as many are as far off as twice as
+  /// many. \pre one was recorded
   [[nodiscard]] const Trial& best() const;
   [[nodiscard]] std::size_t trial_count() const { return trials_.size(); }
   /// Relative distance of a count from the target.

@@ -13,12 +13,12 @@
 #include "common/core/tolerance_error.h"
 #include "common/geometry/face_crossings/crossing_places.h"
 #include "stages/mesh/mesh.h"
-#include "stages/size/closer_near.h"
 #include "strake/chain/attempt.h"
 #include "strake/chain/count_search.h"
 #include "strake/chain/density_match.h"
 #include "strake/chain/goal_warnings.h"
 #include "strake/chain/line_aim.h"
+#include "strake/chain/line_steps.h"
 #include "strake/chain/replace_crossing.h"
 #include "strake/chain/too_coarse.h"
 #include "strake/chain/working_mesh.h"
@@ -27,15 +27,15 @@ namespace strake {
 namespace {
 
 constexpr std::int64_t kFeedbackRounds = 1;
-/// Vertices that lines give at distances that follow errors, over those at even ones where as many
-/// are expected. The mean of 34 models and counts; it saves a trial in every other run.
-constexpr double kFeedbackExcess = 1.04;
 /// Share of a wanted count that lines leave for dividing the cells that are worst. Half of it
 /// already takes a twelfth off the errors, and an eighth off the largest.
 constexpr double kLeftForWorst = 0.01;
 /// Share that dividing may add to what lines give, as each vertex costs a quad and makes others
 /// irregular; more only where the count would be missed otherwise.
 constexpr double kMostDivided = 0.01;
+/// Share of a count that lines must give for cells to be divided until it is met: where it is less
+/// the shape is not in the lines.
+constexpr double kLeastToDivide = 0.5;
 /// Share of the way to a density that is enough, and rounds that may be spent on it. Of the rounds
 /// the nearest counts, before or beyond.
 constexpr double kDensityReached = 1;
@@ -44,10 +44,6 @@ constexpr int kMostDensityRounds = 5;
 /// times it is.
 constexpr double kDensityMissed = 0.1;
 constexpr int kMostDensitySearches = 3;
-/// Error of cells at which lines aim before cells are divided, as a share of the tolerance. It is
-/// between the mean of a cell and its largest one, and fitting lowers it. At 0.6 more cells are
-/// divided, which leaves fewer quads; at less there are more vertices.
-constexpr double kAimedAt = 0.45;
 /// Times that cells are divided and vertices fitted again on the way to a tolerance. Fitting makes
 /// many cells good enough that would be divided without.
 constexpr int kFittedRefinements = 2;
@@ -58,81 +54,20 @@ constexpr double kCloserThere = 0.5;
 /// Times that all lines are, where that is not enough, and at which share.
 constexpr int kCloserLines = 2;
 constexpr double kCloser = 0.6;
+/// Share of the faces that cross, from which on all lines are traced closer where nobody wants a
+/// count, and times they are at most.
+constexpr double kTooManyCross = 0.05;
+constexpr int kMostTimesCloser = 4;
 /// Attempts in vain to part faces that cross; within a tolerance the input's own faces have been
 /// tried for them before.
 constexpr int kPatience = 5;
 constexpr int kPatienceWithinTolerance = 2;
 /// Share of the distances of lines around faces that cross.
 constexpr double kCloserWhereCrossing = 0.7;
-/// Scale on distances that were those of lines, and have theirs in them. Where a count is wanted
-/// the stage scales them to it first, and the scale found for that stays.
-constexpr const char* kScaleOfLines = "1";
 /// Corners of features for each vertex or face wanted, from which on they may be too many, and how
 /// far they may come to lie off features then.
 constexpr double kManyCorners = 0.25;
 constexpr const char* kAnyDistance = "1";
-/// Rounds of fitting before the worst cells are divided: enough to see where errors will stay.
-constexpr int kRoundsBeforeDividing = 3;
-
-void trace_and_mesh(Session& session, const GoalStages& stages) {
-  // Earlier results make room for those that take their place.
-  for (const char* port : {"lines", "quads", "fitted", "refined", "uncrossed"})
-    session.withdraw(port);
-  session.run(stages.trace);
-  session.run(stages.mesh);
-}
-
-void keep_fitted(Session& session, const GoalStages& stages) {
-  for (const Stage* stage : {&stages.trace, &stages.mesh, &stages.fit}) session.keep(*stage);
-}
-
-void trace_mesh_and_fit(Session& session, const GoalStages& stages) {
-  trace_and_mesh(session, stages);
-  session.run(stages.fit);
-  keep_fitted(session, stages);
-}
-
-/// Fits as many rounds as show which cells are worst.
-void fit_before_dividing(Session& session, const GoalStages& stages) {
-  const Option& rounds = stages.fit.option("fit-rounds");
-  const OtherValue few(rounds,
-                       std::to_string(std::min(kRoundsBeforeDividing, std::stoi(rounds.value()))));
-  session.run(stages.fit);
-}
-
-/// Wants other distances between lines where the present result is too far from the surface.
-///
-/// Errors are those of vertices on the surface: where they are large they stay so when vertices
-/// are fitted.
-void want_by_errors(Session& session, const GoalStages& stages) {
-  session.provide_as("fitted", session.get<QuadMesh>("quads"), "quads");
-  session.run(stages.size);
-}
-
-/// Wants distances for even errors, and corrects the scale of all of them by the count.
-void feed_back(Session& session, const GoalStages& stages, const LineAim& aim) {
-  want_by_errors(session, stages);
-  const Option& scale = stages.trace.option("spacing-scale");
-  const double excess = kFeedbackExcess *
-                        static_cast<double>(count_of(session, "quads", aim.counted)) /
-                        static_cast<double>(aim.count);
-  const double corrected = std::stod(scale.value()) * std::sqrt(excess);
-  scale.parse_into(fmt::format("{}", std::clamp(corrected, scale.min, scale.max)));
-}
-
-/// Traces lines, and wants closer ones where a result of them is farther from the surface than a
-/// tolerance allows.
-void shrink_to_tolerance(Session& session, const GoalStages& stages, const std::string& tolerance) {
-  trace_and_mesh(session, stages);
-  const Option& aim = stages.size.option("size-tolerance");
-  Length length = Length::parse(tolerance);
-  length.value *= kAimedAt;
-  {
-    const OtherValue aimed_at(aim, aim.value().empty() ? length.to_string() : aim.value());
-    want_by_errors(session, stages);
-  }
-  stages.trace.option("spacing-scale").parse_into(kScaleOfLines);
-}
 
 DensityMatch match_density(const Session& session, const GoalStages& stages) {
   Session plain = session;
@@ -192,7 +127,8 @@ bool goes_by_errors(const Session& session, const GoalStages& stages) {
 }
 
 /// Looks for the scale of distances that gives the count, from the present one on. Where all are
-/// too far above or below it, as on coarse meshes, takes what is below where cells can be divided.
+/// too far above or below it, as on coarse meshes, takes what is not too far below where cells can
+/// be divided.
 void search_scale(Session& session, const GoalStages& stages, const LineAim& aim) {
   const Option& option = stages.trace.option("spacing-scale");
   CountSearch search(aim.count, std::stod(option.value()), option.min, option.max);
@@ -215,7 +151,10 @@ void search_scale(Session& session, const GoalStages& stages, const LineAim& aim
     session.say(fmt::format("{} {} so far, {} wanted", count, name_of(aim.counted), aim.wanted));
     search.record(*scale, count);
     if (search.best().scale == *scale) best = {session, search.best()};
-    if (count <= aim.count && (!below || count > below->trial.count))
+    const bool can_be_divided =
+        count <= aim.count &&
+        static_cast<double>(count) >= kLeastToDivide * static_cast<double>(aim.count);
+    if (can_be_divided && (!below || count > below->trial.count))
       below = {session, {*scale, count}};
   }
   const bool is_missed = search.error(search.best().count) > kCountTolerance;
@@ -234,45 +173,6 @@ void search_with_density(Session& session, const GoalStages& stages, const Densi
     if (std::abs(best.offer(session) - 1) <= kDensityMissed) break;
   }
   best.take(session);
-}
-
-/// Wants lines closer around some places. \param wanted  see `closer_near`
-void want_closer(Session& session, const SizeField& wanted, const std::vector<Vec3>& places,
-                 double factor) {
-  const SizeField used = used_distances(session.get<LineSet>("lines"));
-  session.provide("size", closer_near(session.get<TriMesh>("mesh"), wanted, used, places, factor),
-                  "closer lines", "");
-}
-
-/// The same on the way to a tolerance, where no count scales distances: elsewhere they stay.
-void want_closer_only_there(Session& session, const GoalStages& stages,
-                            const std::vector<Vec3>& places, double factor) {
-  const Option& option = stages.trace.option("spacing-scale");
-  if (session.has("size")) {
-    SizeField wanted = session.get<SizeField>("size");
-    const double scale = std::stod(option.value());
-    for (auto* distances : {&wanted.along, &wanted.across}) {
-      for (double& d : *distances) d *= scale;
-    }
-    want_closer(session, wanted, places, factor);
-  } else {
-    want_closer(session, used_distances(session.get<LineSet>("lines")), places, factor);
-  }
-  option.parse_into(kScaleOfLines);
-}
-
-/// The same where a count is wanted, which scales all distances: elsewhere they keep their ratios.
-void want_relatively_closer(Session& session, const std::vector<Vec3>& places, double factor) {
-  const SizeField used = used_distances(session.get<LineSet>("lines"));
-  want_closer(session,
-              session.has("size") ? scaled_like(session.get<SizeField>("size"), used) : used,
-              places, factor);
-}
-
-/// Fits the refined result once more.
-void fit_refined(Session& session, const GoalStages& stages) {
-  session.provide_as("quads", session.get<QuadMesh>("refined"), "refined");
-  session.run(stages.fit);
 }
 
 /// Divides cells and fits vertices in turn, and divides once more.
@@ -318,8 +218,7 @@ Attempt trace_within(Session& session, const GoalStages& stages, CrossingPlaces&
       want_closer_only_there(session, stages, miss->places(), kCloserThere);
     } else {
       session.say("dividing cells does not reach the tolerance; tracing closer lines");
-      const double closer_scale = kCloser * std::stod(scale.value());
-      scale.parse_into(fmt::format("{}", std::clamp(closer_scale, scale.min, scale.max)));
+      scale_lines(stages, kCloser * std::stod(scale.value()));
     }
   }
 }
@@ -391,7 +290,12 @@ void trace_to_count(Session& session, const GoalStages& stages, const LineAim& a
   std::optional<OtherValue> merging;
   if (!is_users && are_many && is_exceeded(session, aim)) {
     merging.emplace(distance, kAnyDistance);
-    search_scale(session, stages, aim);
+    Session merged = session;
+    search_scale(merged, stages, aim);
+    if (aim.ratio_miss(count_of(merged, "quads", aim.counted)) <
+        aim.ratio_miss(count_of(session, "quads", aim.counted))) {
+      session = std::move(merged);
+    }
   }
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
   const Attempt first = fit_to_count(session, stages, aim, crossing);
@@ -412,6 +316,53 @@ void trace_to_count(Session& session, const GoalStages& stages, const LineAim& a
   };
   const Index faces = first.done.get<QuadMesh>("fitted").mesh.face_count();
   session = part_faces(first, faces, kPatience, again, keep).done;
+}
+
+/// Whether there are fewer vertices than the input has, so that lines may be too coarse for it.
+bool may_be_too_coarse(const Session& session) {
+  return count_of(session, "quads", Counted::vertices) <
+         session.get<TriMesh>("mesh").vertex_count();
+}
+
+/// Share of the faces that lines give that cross.
+double crossing_share(const Session& session, CrossingPlaces& crossing) {
+  const PolyMesh& faces = session.get<QuadMesh>("quads").mesh;
+  return static_cast<double>(crossing.of(faces).size()) / faces.face_count();
+}
+
+/// Traces, and closer where so many faces cross that lines are too coarse for the shape; evens
+/// errors out where that is not undone by it.
+void trace_freely(Session& session, const GoalStages& stages, std::int64_t feedback_rounds) {
+  CrossingPlaces crossing(session.get<TriMesh>("mesh"));
+  trace_and_mesh(session, stages);
+  double share = crossing_share(session, crossing);
+  for (int i = 0; i < kMostTimesCloser && share > kTooManyCross && may_be_too_coarse(session);
+       ++i) {
+    session.say(fmt::format("{:.0f} % of the faces cross; tracing closer lines", 100 * share));
+    scale_lines(stages, kCloser * std::stod(stages.trace.option("spacing-scale").value()));
+    trace_and_mesh(session, stages);
+    share = crossing_share(session, crossing);
+  }
+  for (std::int64_t round = 0; round < feedback_rounds; ++round) {
+    const Session before = session;
+    even_out(session, stages);
+    const double now = crossing_share(session, crossing);
+    if (now > std::max(share, kTooManyCross)) {
+      session = before;
+      return;
+    }
+    share = now;
+  }
+}
+
+/// Fits what the present lines give, with some more vertices by dividing the worst cells.
+/// \param left  share of these, as in LineAim \return the port of the result
+std::string fit_freely(Session& session, const GoalStages& stages, double left) {
+  const std::int64_t count = count_of(session, "quads", Counted::vertices);
+  CrossingPlaces crossing(session.get<TriMesh>("mesh"));
+  session = fit_to_count(session, stages, {Counted::vertices, count, count, left}, crossing).done;
+  if (session.has("uncrossed")) session.keep(stages.uncross);
+  return result_port(session);
 }
 
 }  // namespace
@@ -441,28 +392,30 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
   return result_port(session);
 }
 
-std::string follow_spacing(Session& session, const GoalStages& stages) {
+std::string follow_spacing(Session& session, const GoalStages& stages,
+                           std::optional<std::int64_t> feedback_rounds) {
   estimate_field(session, stages);
-  trace_mesh_and_fit(session, stages);
-  const std::int64_t count = count_of(session, "fitted", Counted::vertices);
-  CrossingPlaces crossing(session.get<TriMesh>("mesh"));
-  replace_crossing(session, stages, {Counted::vertices, count, count, 0}, crossing);
-  if (session.has("uncrossed")) session.keep(stages.uncross);
-  return result_port(session);
+  // A density says where vertices go, not the errors.
+  const std::int64_t rounds =
+      feedback_rounds.value_or(session.has("density") ? 0 : kFeedbackRounds);
+  trace_freely(session, stages, rounds);
+  return fit_freely(session, stages,
+                    rounds > 0 && goes_by_errors(session, stages) ? kLeftForWorst : 0);
 }
 
 std::string meet_tolerance(Session& session, const GoalStages& stages, const std::string& tolerance,
                            std::optional<std::int64_t> feedback_rounds) {
   stages.refine.option("refine-tolerance").parse_into(tolerance);
+  estimate_field(session, stages);
+  for (std::int64_t i = 0; i < feedback_rounds.value_or(kFeedbackRounds); ++i) {
+    shrink_to_tolerance(session, stages, tolerance);
+  }
   if (only_quads(stages)) {
     session.say(
         "warning: with --pure-quads cells are not divided: the tolerance steers the spacing of "
         "lines, and may be exceeded");
-    return follow_spacing(session, stages);
-  }
-  estimate_field(session, stages);
-  for (std::int64_t i = 0; i < feedback_rounds.value_or(kFeedbackRounds); ++i) {
-    shrink_to_tolerance(session, stages, tolerance);
+    trace_and_mesh(session, stages);
+    return fit_freely(session, stages, 0);
   }
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
   const Attempt first = trace_within(session, stages, crossing, kCloserLines);

@@ -30,10 +30,12 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
                        std::int64_t wanted, std::optional<std::int64_t> feedback_rounds,
                        bool lines_only, double working_ratio);
 
-/// Traces once, at the distances that the options of tracing ask for, and takes the input's own
-/// faces where single faces of the result cross.
+/// Traces at the distances that the options of tracing ask for, closer where many faces cross, and
+/// by default once more at such that make errors even with about as many lines. Divides the worst
+/// cells then, and takes the input's own faces where single faces of the result cross.
 /// \return the port of the result
-std::string follow_spacing(Session& session, const GoalStages& stages);
+std::string follow_spacing(Session& session, const GoalStages& stages,
+                           std::optional<std::int64_t> feedback_rounds);
 
 /// Traces, by default once more with closer lines where errors are too large, and divides cells
 /// until the result is within a tolerance of the surface, both ways; where that is not reached, or

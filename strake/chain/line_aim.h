@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -20,6 +21,11 @@ struct LineAim {
   /// Share of the wanted count that another one is off by.
   [[nodiscard]] double miss(std::int64_t reached) const {
     return std::abs(static_cast<double>(reached - wanted)) / static_cast<double>(wanted);
+  }
+  /// How far its ratio to the wanted one is from one: half as many are as far off as twice as many.
+  [[nodiscard]] double ratio_miss(std::int64_t reached) const {
+    return std::abs(std::log(static_cast<double>(std::max<std::int64_t>(reached, 1)) /
+                             static_cast<double>(wanted)));
   }
 };
 

@@ -19,14 +19,23 @@ namespace {
 /// and from which on it is seen.
 constexpr double kSuspect = 0.04;
 constexpr double kSeen = 0.06;
-/// Share of the faces that cross, from which on cells are no longer in order.
+/// Largest distance, in the same, from which on a part of the shape is lost.
+constexpr double kLost = 0.8;
+/// Share of the faces that cross, from which on cells are no longer in order, and from which on
+/// distances from them say nothing; that of another result which is much less, as a share of it;
+/// and most there may be in one that shows a shape which lines miss.
 constexpr double kManyCross = 0.02;
+constexpr double kTangled = 0.3;
+constexpr double kFewer = 0.25;
+constexpr double kMostCross = 0.1;
 /// Share of a wanted count that a result may be off by.
 constexpr double kFarOff = 0.05;
 /// Share of a distance that is much less than it: of one that is seen, or of a result that has no
 /// more quads than the other, and of another one.
 constexpr double kMuchLess = 0.5;
 constexpr double kVeryMuchLess = 0.25;
+/// Distance that is hardly more, where another fault is much less.
+constexpr double kHardlyMore = 1.1;
 /// Times that the count is corrected where faces are counted, and error that is small enough.
 constexpr int kMostCorrections = 3;
 constexpr double kCountAccuracy = 0.02;
@@ -41,9 +50,10 @@ struct Goal {
   std::int64_t wanted;
 };
 
+/// What is wrong with a result. Lengths are in those of mean cells if there are as many as wanted.
 struct Faults {
-  double distance =
-      0;  ///< root mean square, in mean lengths of cells, were there as many as wanted
+  double distance = 0;  ///< root mean square, times the share of the count: it falls with that
+  double largest = 0;   ///< distance
   double crossing = 0;  ///< share of the faces
   double missing = 0;   ///< share of the count, too few or too many
   double odd = 0;       ///< share of the faces that are no quads
@@ -73,26 +83,38 @@ Faults faults_of(const Session& session, const Goal& goal, double samples = kSam
   const auto& result = session.get<QuadMesh>(port);
   const double share = reached(session, port, goal);
   const double cell = std::sqrt(area(mesh) / result.mesh.vertex_count() * share);
+  const ErrorMap map =
+      measure_cells(ComparedSurfaces(mesh, result), sampling_of(result.mesh, samples));
   const auto crossing = static_cast<double>(CrossingPlaces(mesh).of(result.mesh).size());
-  return {
-      measure_cells(ComparedSurfaces(mesh, result), sampling_of(result.mesh, samples)).rms / cell,
-      crossing / result.mesh.face_count(), std::abs(share - 1),
-      1 - static_cast<double>(analyse(result.mesh).quads) / result.mesh.face_count()};
+  return {share * map.rms / cell, map.largest / cell, crossing / result.mesh.face_count(),
+          std::abs(share - 1),
+          1 - static_cast<double>(analyse(result.mesh).quads) / result.mesh.face_count()};
 }
 
 bool is_too_coarse(const Faults& faults) {
-  return faults.distance > kSuspect || faults.crossing > kManyCross || faults.missing > kFarOff;
+  return faults.distance > kSuspect || faults.largest > kLost || faults.crossing > kManyCross ||
+         faults.missing > kFarOff;
 }
 
-/// Whether one of the faults is much less, and none is more.
+/// Whether one of the faults is much less, and none is more. Where lines are very much farther off
+/// they miss the shape, and where most of their faces cross they are none: other faults count less
+/// then.
 bool is_much_better(const Faults& other, const Faults& faults) {
+  const bool crosses_less =
+      faults.crossing > kManyCross && other.crossing < kFewer * faults.crossing;
+  if (faults.crossing > kTangled) return crosses_less;
   const bool is_enough = faults.distance > kSeen || other.odd <= faults.odd;
   const double share = is_enough ? kMuchLess : kVeryMuchLess;
   const bool is_nearer = other.distance < share * faults.distance;
-  const bool crosses_less = faults.crossing > kManyCross && other.crossing < kManyCross / 2;
+  const bool is_found = faults.largest > kLost && other.largest < kMuchLess * faults.largest;
   const bool is_as_wanted = faults.missing > kFarOff && other.missing < kFarOff / 2;
-  return (is_nearer || crosses_less || is_as_wanted) && other.distance <= faults.distance &&
-         other.crossing <= faults.crossing && other.missing <= std::max(faults.missing, kFarOff);
+  const bool is_shape_missed =
+      faults.distance > kSeen && other.distance < kVeryMuchLess * faults.distance;
+  const bool is_sound = is_shape_missed ? other.crossing <= std::max(faults.crossing, kMostCross)
+                                        : other.crossing <= faults.crossing &&
+                                              other.missing <= std::max(faults.missing, kFarOff);
+  return (is_nearer || is_found || crosses_less || is_as_wanted) &&
+         other.distance <= kHardlyMore * faults.distance && is_sound;
 }
 
 /// Decimates until the count is met, as nearly as a few corrections allow.

@@ -111,7 +111,7 @@ TEST_F(FrontEnd, AFolderHoldsTheLastRunAlone) {
   must("strake remesh torus.ply -q -o out.obj --keep kept --vertices 400");
   EXPECT_TRUE(std::filesystem::exists(file("kept/refined.hdf")));
   put("kept/mine.txt", "a note");
-  must("strake remesh torus.ply -q -o out.obj --keep kept --no-evaluate");
+  must("strake remesh torus.ply -q -o out.obj --keep kept --no-evaluate --feedback-rounds 0");
   for (const char* gone : {"refined.hdf", "refine.json", "evaluate.json"}) {
     EXPECT_FALSE(std::filesystem::exists(file("kept") / gone)) << gone;
   }
@@ -156,6 +156,7 @@ TEST_F(FrontEnd, FollowsADensity) {
   }
   EXPECT_NEAR(mean, 2, 0.2);  // lines go on a little into the other half, or along the border
   EXPECT_NEAR(mean_off_border, 2, 0.1);
+  must_fail(4, "strake remesh torus.ply -o bad.obj --density density.ply", "of that file");
   put("density.ply",
       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float density\nend_header\n1\n");
   must_fail(4, "strake remesh torus.ply -o bad.obj --density density.ply",
@@ -219,8 +220,8 @@ TEST_F(FrontEnd, LogsAsOneJsonObjectALine) {
     EXPECT_GE(event.at("fraction"), 0.0);
     EXPECT_LE(event.at("fraction"), 1.0);
   }
-  EXPECT_EQ(labels, (std::set<std::string>{"strake", "import", "tensor", "smooth", "trace", "mesh",
-                                           "fit", "evaluate"}));
+  EXPECT_EQ(labels, (std::set<std::string>{"strake", "import", "tensor", "smooth", "trace", "size",
+                                           "mesh", "refine", "fit", "evaluate"}));
 }
 
 TEST_F(FrontEnd, ReportHoldsEveryStage) {

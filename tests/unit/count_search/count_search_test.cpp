@@ -70,6 +70,13 @@ TEST(CountSearch, GoesOnBesideACountThatIsOutOfOrder) {
   EXPECT_EQ(search.best().count, 790);
 }
 
+/// Lines fit into the shape twice too often, or hardly at all.
+TEST(CountSearch, HardlyAnyAreFartherOffThanTwiceAsMany) {
+  const auto search = search_for(300, [](double scale) { return scale < 1.05 ? 715 : 4; });
+  EXPECT_GT(search.trial_count(), 2u);
+  EXPECT_EQ(search.best().count, 715);
+}
+
 TEST(CountSearch, RemembersTheBestWhereTheTargetIsOutOfReach) {
   const auto search = search_for(100, [](double scale) { return std::max(800.0, 2000 / scale); });
   EXPECT_EQ(search.best().count, 800);

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/core/types.h"
+#include "strake/chain/goal_stages.h"
+#include "strake/chain/line_aim.h"
+#include "strake/chain/session.h"
+
+/// The steps of which the ways to a goal consist (goals.h). Each works on the results that the
+/// session has, and changes the scale of distances that the stage trace has as an option.
+namespace strake {
+
+/// Traces and makes cells anew: "lines" and "quads".
+void trace_and_mesh(Session& session, const GoalStages& stages);
+
+/// Likewise, and fits and keeps the result: "fitted".
+void trace_mesh_and_fit(Session& session, const GoalStages& stages);
+
+/// Keeps lines, cells and the fitted result as they are.
+void keep_fitted(Session& session, const GoalStages& stages);
+
+/// Fits as many rounds as show which cells are worst.
+void fit_before_dividing(Session& session, const GoalStages& stages);
+
+/// Fits the refined result once more.
+void fit_refined(Session& session, const GoalStages& stages);
+
+/// Sets the scale of all distances, within what it may be.
+void scale_lines(const GoalStages& stages, double scale);
+
+/// Wants distances for even errors, and corrects the scale of all of them by the count.
+/// \pre traced and meshed
+void feed_back(Session& session, const GoalStages& stages, const LineAim& aim);
+
+/// Traces again at distances for even errors, with about as many lines as there are.
+/// \pre traced and meshed
+void even_out(Session& session, const GoalStages& stages);
+
+/// Traces lines, and wants closer ones where a result of them is farther from the surface than a
+/// tolerance allows.
+void shrink_to_tolerance(Session& session, const GoalStages& stages, const std::string& tolerance);
+
+/// Wants lines closer around some places, and elsewhere as they are: on the way to a tolerance.
+/// \param factor  on distances there, from 0 to 1
+void want_closer_only_there(Session& session, const GoalStages& stages,
+                            const std::vector<Vec3>& places, double factor);
+
+/// Likewise where a count is wanted, which scales all distances: elsewhere they keep their ratios.
+void want_relatively_closer(Session& session, const std::vector<Vec3>& places, double factor);
+
+}  // namespace strake
