@@ -91,7 +91,10 @@ void RemeshCommand::add_to(CLI::App& app) {
   app.add_option("-o,--output", output, "result to write: .obj, .ply, .off or .hdf")
       ->type_name("FILE")
       ->required();
-  app.add_option("--keep", keep, "Keep the artifact and report of every stage in this folder.")
+  app.add_option(
+         "--keep", keep,
+         "Keep the artifact and report of every stage in this folder, in place of those of an "
+         "earlier run.")
       ->type_name("FOLDER");
   app.add_option("--feature-edges", feature_edges.path, chain.import.inputs.back().help)
       ->type_name("FILE");

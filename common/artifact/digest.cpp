@@ -3,7 +3,9 @@
 #include <xxhash.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
+#include <system_error>
 #include <vector>
 
 #include "common/core/error.h"
@@ -38,6 +40,10 @@ std::string digest_text(std::string_view text) {
 }
 
 std::string digest_file(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    throw InputError(path.string() + ": is a folder; give a file");
+  }
   std::ifstream stream(path, std::ios::binary);
   Digest digest;
   std::vector<char> block(1 << 20);

@@ -92,12 +92,32 @@ double to_and_fro(const TriMesh& mesh, const Bends& bends) {
   return all > 0 ? 1 - left / all : 0;
 }
 
-/// Neighbours that count for the middle of a vertex, pair by pair.
-std::vector<std::array<Index, 2>> pairs_of_neighbours(const TriMesh& mesh) {
+/// [V] 1 at the boundary.
+std::vector<std::uint8_t> boundary_vertices(const TriMesh& mesh) {
   std::vector<std::uint8_t> at_boundary(mesh.positions.size(), 0);
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
     if (mesh.is_boundary(h)) at_boundary[mesh.from(h)] = at_boundary[mesh.to(h)] = 1;
   }
+  return at_boundary;
+}
+
+/// [V] unit normals of the vertices at the boundary, by the areas of their faces.
+std::vector<Vec3> boundary_normals(const TriMesh& mesh,
+                                   const std::vector<std::uint8_t>& at_boundary) {
+  std::vector<Vec3> normal(mesh.positions.size(), Vec3::Zero());
+  for (const auto& [a, b, c] : mesh.faces) {
+    if (at_boundary[a] == 0 && at_boundary[b] == 0 && at_boundary[c] == 0) continue;
+    const Vec3 area =
+        (mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a]);
+    for (const Index v : {a, b, c}) normal[v] += area;
+  }
+  for (Vec3& n : normal) n.normalize();
+  return normal;
+}
+
+/// Neighbours that count for the middle of a vertex, pair by pair.
+std::vector<std::array<Index, 2>> pairs_of_neighbours(
+    const TriMesh& mesh, const std::vector<std::uint8_t>& at_boundary) {
   std::vector<std::array<Index, 2>> pairs;
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
     const Index a = mesh.from(h);
@@ -126,7 +146,8 @@ Noise measure_noise(const TriMesh& mesh) {
 
 double take_noise_off(TriMesh& mesh, std::int64_t rounds) {
   const std::vector<Vec3> before = mesh.positions;
-  const std::vector<std::array<Index, 2>> pairs = pairs_of_neighbours(mesh);
+  const std::vector<std::uint8_t> at_boundary = boundary_vertices(mesh);
+  const std::vector<std::array<Index, 2>> pairs = pairs_of_neighbours(mesh, at_boundary);
   std::vector<double> count(before.size(), 0);
   for (const auto& [a, b] : pairs) count[a] += 1;
   std::vector<Vec3> sum(before.size());
@@ -134,8 +155,11 @@ double take_noise_off(TriMesh& mesh, std::int64_t rounds) {
     std::ranges::fill(sum, Vec3::Zero());
     for (const auto& [a, b] : pairs) sum[a] += mesh.positions[b];
     const double factor = step % 2 == 0 ? kForth : kBack;
+    const std::vector<Vec3> normal = boundary_normals(mesh, at_boundary);
     for (std::size_t v = 0; v < sum.size(); ++v) {
-      if (count[v] > 0) mesh.positions[v] += factor * (sum[v] / count[v] - mesh.positions[v]);
+      if (!(count[v] > 0)) continue;
+      const Vec3 move = factor * (sum[v] / count[v] - mesh.positions[v]);
+      mesh.positions[v] += at_boundary[v] == 0 ? move : move.dot(normal[v]) * normal[v];
     }
   }
   double squares = 0;

@@ -23,7 +23,8 @@ Noise measure_noise(const TriMesh& mesh);
 /// Takes noise off the positions of a mesh, and leaves its volume and what is several edges large
 /// about as it is: each round moves vertices towards the middle of their neighbours, and back by a
 /// little more (Taubin, A Signal Processing Approach to Fair Surface Design, 1995). Vertices at the
-/// boundary have those along it as neighbours. Creases become round within some edges.
+/// boundary have those along it as neighbours, and move along their normals alone: pinholes and
+/// teeth of a ragged scan would close up. Creases become round within some edges.
 /// \return root mean square of the moves, model units. Cost O(n) a round
 double take_noise_off(TriMesh& mesh, std::int64_t rounds);
 

@@ -46,7 +46,8 @@ const Report& Session::run(const Stage& stage, const std::string& last_use_of) {
   seconds_[stage.name] +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   for (const std::string& warning : result.report.warnings()) {
-    say(stage.name + ": warning: " + warning);
+    const std::string text = stage.name + ": warning: " + warning;
+    if (warned_of_->insert(text).second) say(text);
   }
   if (result.output) provide(stage.output.name, std::move(*result.output), stage.output.name, "");
   StageRecord& record = record_of(stage);

@@ -3,6 +3,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -89,6 +90,8 @@ class Session {
   std::map<std::string, Entry> values_;
   std::vector<StageRecord> records_;
   std::map<std::string, double> seconds_;  // by stage, all its runs together
+  /// What was said of stages, which run many times: shared by copies, as these are one run.
+  std::shared_ptr<std::set<std::string>> warned_of_ = std::make_shared<std::set<std::string>>();
 };
 
 }  // namespace strake

@@ -46,7 +46,7 @@ TEST_F(Errors, WrongUsage) {
 TEST_F(Errors, MissingAndUnreadableFiles) {
   must_fail(kBadInput, "strake-tensor nowhere.hdf -o t.hdf", "nowhere.hdf");
   must_fail(kBadInput, "strake remesh nowhere.obj -o x.obj", "nowhere.obj");
-  must_fail(kBadInput, "strake remesh . -o x.obj", ".: cannot be read");
+  must_fail(kBadInput, "strake remesh . -o x.obj", ".: is a folder");
   must_fail(kBadInput, "strake-tensor mesh.hdf -o nowhere/t.hdf", "nowhere");
   must_fail(kBadInput, "strake info nowhere.obj", "nowhere.obj");
   must_fail(kBadInput, "strake remesh torus.ply -o x.obj --report nowhere/r.json", "nowhere");

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -60,6 +61,34 @@ TEST_F(SessionTest, SnapshotsKeepWhatAStageUsesUp) {
   session_.run(taking_stage(taken_), "tensor");
   EXPECT_NE(taken_, first_);
   EXPECT_EQ(before.get<TensorField>("tensor").tensor.size(), 100u);
+}
+
+// A search runs stages many times, on copies of a session.
+TEST(SessionWarnings, AreSaidOnce) {
+  class Listener : public StageObserver {
+   public:
+    void report(std::string_view /*phase*/, double /*fraction*/) override {}
+    void say(const std::string& message) override { said.push_back(message); }
+    std::vector<std::string> said;
+  };
+  Listener listener;
+  Session session(listener);
+  Stage stage;
+  stage.name = "warn";
+  std::string warning = "thin";
+  stage.run = [&warning](Inputs& /*inputs*/, Observer& /*observer*/) {
+    StageResult result;
+    result.report.warn(warning);
+    return result;
+  };
+  session.run(stage);
+  Session copy = session;
+  copy.run(stage);
+  session.run(stage);
+  warning = "bent";
+  session.run(stage);
+  EXPECT_EQ(listener.said,
+            (std::vector<std::string>{"warn: warning: thin", "warn: warning: bent"}));
 }
 
 }  // namespace
