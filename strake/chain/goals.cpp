@@ -289,12 +289,17 @@ void trace_to_count(Session& session, const GoalStages& stages, const LineAim& a
   const bool are_many = corner_count(session) > kManyCorners * static_cast<double>(aim.wanted);
   std::optional<OtherValue> merging;
   if (!is_users && are_many && is_exceeded(session, aim)) {
+    const Option& scale = stages.trace.option("spacing-scale");
+    const std::string scale_before = scale.value();
     merging.emplace(distance, kAnyDistance);
     Session merged = session;
     search_scale(merged, stages, aim);
     if (aim.ratio_miss(count_of(merged, "quads", aim.counted)) <
         aim.ratio_miss(count_of(session, "quads", aim.counted))) {
       session = std::move(merged);
+    } else {
+      merging.reset();
+      scale.parse_into(scale_before);
     }
   }
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
@@ -330,8 +335,8 @@ double crossing_share(const Session& session, CrossingPlaces& crossing) {
   return static_cast<double>(crossing.of(faces).size()) / faces.face_count();
 }
 
-/// Traces, and closer where so many faces cross that lines are too coarse for the shape; evens
-/// errors out where that is not undone by it.
+/// Traces, and closer where so many faces cross that lines are too coarse for the shape. Then makes
+/// errors even, unless that brings crossing faces back.
 void trace_freely(Session& session, const GoalStages& stages, std::int64_t feedback_rounds) {
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
   trace_and_mesh(session, stages);
