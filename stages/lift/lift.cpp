@@ -10,6 +10,7 @@
 #include "common/geometry/mesh_measures.h"
 #include "common/geometry/surface_distance/surface_distance.h"
 #include "common/geometry/surface_point.h"
+#include "common/geometry/topology/vertex_ring.h"
 
 namespace strake {
 namespace {
@@ -51,19 +52,9 @@ class Lift {
     return mesh_.wedge_vertex[coarse_.parent_wedge[coarse_.wedge_of(corner)]];
   }
 
-  template <class Visit>
-  void around(Index vertex, Visit visit) const {
-    const Index first = mesh_.vertex_out[vertex];
-    Index h = first;
-    do {
-      visit(h);
-      h = mesh_.rotate_ccw(h);
-    } while (h != kNone && h != first);
-  }
-
   [[nodiscard]] bool is_on_line(Index vertex) const {
     bool is = mesh_.is_corner[vertex] != 0;
-    around(vertex, [&](Index h) { is = is || mesh_.is_barrier(h); });
+    for_each_outgoing(mesh_, vertex, [&](Index h) { is = is || mesh_.is_barrier(h); });
     return is;
   }
 
@@ -77,7 +68,7 @@ class Lift {
   /// \param share  of the way from one end to the other
   [[nodiscard]] SurfacePoint on_edge(Index from, Index to, double share) const {
     SurfacePoint point;
-    around(from, [&](Index h) {
+    for_each_outgoing(mesh_, from, [&](Index h) {
       // Of a face that has the edge as the one or the other of its two sides there.
       if (point.face != kNone) return;
       const Index last = TriMesh::prev(h);
