@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "common/core/error.h"
 #include "common/geometry/topology/vertex_ring.h"
@@ -10,22 +11,36 @@
 namespace strake {
 namespace {
 
-/// Of a vertex that repairs inserted: the mean of those around it that were in the file; 1 where
-/// there is none.
-double mean_density_around(const TriMesh& mesh, const DensityField& density, Index vertex) {
-  double sum = 0;
-  int count = 0;
-  for_each_neighbour(mesh, vertex, [&](Index v) {
-    if (mesh.source_vertex[v] == kNone) return;
-    sum += density.value[mesh.source_vertex[v]];
-    ++count;
-  });
-  return count > 0 ? sum / count : 1;
-}
-
-double density_at(const TriMesh& mesh, const DensityField& density, Index vertex) {
-  const Index source = mesh.source_vertex[vertex];
-  return source == kNone ? mean_density_around(mesh, density, vertex) : density.value[source];
+/// [V] the density of each vertex; of those that import inserted the mean of the ones around them,
+/// from those that were in the file inwards; 1 where there is none.
+std::vector<double> density_at_vertices(const TriMesh& mesh, const DensityField& density) {
+  constexpr double kUnknown = 0;
+  std::vector<double> values(mesh.positions.size(), kUnknown);
+  std::vector<Index> inserted;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    if (mesh.source_vertex[v] == kNone) {
+      inserted.push_back(v);
+    } else {
+      values[v] = density.value[mesh.source_vertex[v]];
+    }
+  }
+  while (!inserted.empty()) {
+    std::vector<std::pair<Index, double>> found;
+    for (const Index v : inserted) {
+      double sum = 0;
+      int count = 0;
+      for_each_neighbour(mesh, v, [&](Index other) {
+        sum += values[other];
+        if (values[other] != kUnknown) ++count;
+      });
+      if (count > 0) found.emplace_back(v, sum / count);
+    }
+    if (found.empty()) break;
+    for (const auto& [v, value] : found) values[v] = value;
+    std::erase_if(inserted, [&](Index v) { return values[v] != kUnknown; });
+  }
+  for (const Index v : inserted) values[v] = 1;
+  return values;
 }
 
 }  // namespace
@@ -44,7 +59,8 @@ std::vector<double> density_at_wedges(const TriMesh& mesh, const DensityField& d
   }
   std::vector<double> values;
   values.reserve(mesh.wedge_vertex.size());
-  for (const Index v : mesh.wedge_vertex) values.push_back(density_at(mesh, density, v));
+  const std::vector<double> at_vertices = density_at_vertices(mesh, density);
+  for (const Index v : mesh.wedge_vertex) values.push_back(at_vertices[v]);
   return values;
 }
 

@@ -14,6 +14,7 @@
 #include "common/geometry/topology/topology.h"
 #include "stages/import/assemble.h"
 #include "stages/import/carry.h"
+#include "stages/import/divide_long_edges.h"
 #include "stages/import/features.h"
 #include "stages/import/flat_faces.h"
 #include "stages/import/noise.h"
@@ -133,8 +134,7 @@ void report_repairs(const Repairs& repairs, double removed_percent, double diago
   for (std::string& sentence : describe(repairs)) report.warn(std::move(sentence));
 }
 
-void report_census(const TriMesh& mesh, Report& report) {
-  const Census counts = census(mesh);
+void report_census(const TriMesh& mesh, const Census& counts, Report& report) {
   report.set("census.vertices", mesh.vertex_count());
   report.set("census.faces", mesh.face_count());
   report.set("census.components", counts.components);
@@ -166,6 +166,29 @@ void report_noise(const TriMesh& mesh, Report& report) {
       "face, to and fro, so directions of curvature mean little; --denoise 10 takes "
       "noise of a scan off",
       noise.median_bend_deg));
+}
+
+void divide_long_edges(TriMesh& mesh, const ImportOptions& options, Report& report) {
+  /// What it may cost, in vertices: models are refined in vain where faces are needles.
+  constexpr Index kMostVertices = 20000;
+  const double longest = options.longest_edge.resolve(mesh.diagonal);
+  report.set("division.inserted_vertices",
+             import::divide_long_edges(mesh, longest, mesh.vertex_count() + kMostVertices));
+}
+
+/// Three times the volume that a closed surface encloses, negative where its faces look inwards.
+double signed_volume(const TriMesh& mesh) {
+  double sum = 0;
+  for (const auto& [a, b, c] : mesh.faces) {
+    sum += mesh.positions[a].dot(mesh.positions[b].cross(mesh.positions[c])) / 2;
+  }
+  return sum;
+}
+
+/// Faces all around may be turned over on purpose, as those of a mould are.
+void warn_of_inside_out(const TriMesh& mesh, const Census& counts, Report& report) {
+  if (counts.boundary_loops > 0 || signed_volume(mesh) >= 0) return;
+  report.warn("the surface is inside out: its faces look inwards, and those of the result will");
 }
 
 FeatureRules feature_rules(const ImportOptions& options, double diagonal) {
@@ -247,6 +270,9 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
   const import::FeatureCounts features = import::find_features(
       result.mesh, feature_rules(options, result.mesh.diagonal), soup, listed);
   if (options.no_attributes) result.mesh.attributes = {};
+  warn_of_many_seams(result.mesh, features, result.report);
+  report_noise(result.mesh, result.report);
+  divide_long_edges(result.mesh, options, result.report);
   build_wedges(result.mesh);
   observer.report("checking", 0.8);
   validate(result.mesh);
@@ -254,11 +280,11 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
 
   result.report.set("input.vertices", soup.vertex_count());
   result.report.set("input.faces", soup.face_count());
-  report_census(result.mesh, result.report);
+  const Census counts = census(result.mesh);
+  report_census(result.mesh, counts, result.report);
+  warn_of_inside_out(result.mesh, counts, result.report);
   report_repairs(repairs, removed_percent, frame.diagonal, result.report);
-  report_noise(result.mesh, result.report);
   report_features(features, result.report);
-  warn_of_many_seams(result.mesh, features, result.report);
   report_attributes(result.mesh.attributes, result.report);
   observer.report("done", 1);
   return result;

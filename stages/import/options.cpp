@@ -35,6 +35,13 @@ OptionList ImportOptions::declare() {
                "round, and distances are those to the smoothed surface.",
        .min = 0,
        .max = 1000},
+      {.name = "longest-edge",
+       .target = &longest_edge,
+       .unit = "length",
+       .help = "Longer edges are divided first, so that fields have vertices inside large faces; "
+               "the surface stays what it is. 100% divides none.",
+       .min = 1e-3,
+       .max = 1},
       {.name = "most-removed",
        .target = &most_removed_percent,
        .unit = "%",

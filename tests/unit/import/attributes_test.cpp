@@ -188,7 +188,7 @@ TEST(Attributes, SurviveWeldingAndTurning) {
 TEST(Attributes, BordersAreFeatures) {
   const PolyMesh mesh = decorated();
   const auto edges = [&](const char* which) {
-    ImportOptions options;
+    ImportOptions options = shapes::undivided();
     options.feature_angle_deg = 180;
     options.attribute_features = which;
     const TriMesh result = shapes::imported(mesh, options).mesh;

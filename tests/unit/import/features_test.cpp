@@ -74,7 +74,7 @@ TEST(Features, RidgesStandOutByMoreThanTheHeightAtAnyAngle) {
   for (const double angle : {3.0, 12.0, 30.0}) {
     const double height = std::tan(0.5 * angle * kDegree) / kSteps;
     for (const double factor : {0.99, 1.01}) {
-      ImportOptions options;
+      ImportOptions options = shapes::undivided();
       options.feature_height = Length{factor * height, false};
       const TriMesh mesh = imported(fold(angle, kSteps, unfaded), options).mesh;
       EXPECT_EQ(feature_edges(mesh), factor < 1 ? kSteps : 0) << angle << " degrees";
@@ -84,7 +84,7 @@ TEST(Features, RidgesStandOutByMoreThanTheHeightAtAnyAngle) {
 
 /// Coarser meshes of the same fold stand out more.
 TEST(Features, RidgesDependOnTheSizeOfFaces) {
-  ImportOptions options;
+  ImportOptions options = shapes::undivided();
   options.feature_height = percent(1);
   EXPECT_EQ(feature_edges(imported(fold(12, 4, unfaded), options).mesh), 4);
   EXPECT_EQ(feature_edges(imported(fold(12, 20, unfaded), options).mesh), 0);

@@ -150,7 +150,8 @@ TEST(Repair, SheetsThatCrossInAnEdgeRunOnFlat) {
   const PolyMesh cross = shapes::polygons({Vec3(0, 0, 0), Vec3(0, 0, 1), Vec3(1, 0.1, 0),
                                            Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0)},
                                           {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {1, 0, 5}});
-  const TriMesh mesh = imported(cross, {.feature_angle_deg = 180}).mesh;
+  const TriMesh mesh =
+      imported(cross, {.feature_angle_deg = 180, .longest_edge = percent(100)}).mesh;
   EXPECT_EQ(census(mesh).components, 2);
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
     if (mesh.twin[h] == kNone) continue;
@@ -174,8 +175,22 @@ TEST(Repair, TurnedFacesFollowTheMajority) {
 
 TEST(Repair, ConsistentlyInsideOutIsKept) {
   const ImportResult result = imported(shapes::turned(shapes::cube(), [](Index) { return true; }));
-  EXPECT_FALSE(is_repaired(result));
+  EXPECT_EQ(count(result.report, "repairs.flipped_faces"), 0);
   EXPECT_NEAR(shapes::volume(result.mesh), -1, 1e-14);
+}
+
+TEST(Repair, ClosedSurfacesThatLookInwardsAreNamed) {
+  const auto is_named = [](const PolyMesh& mesh) {
+    return std::ranges::any_of(imported(mesh).report.warnings(), [](const std::string& warning) {
+      return warning.find("inside out") != std::string::npos;
+    });
+  };
+  const auto all = [](Index) { return true; };
+  EXPECT_FALSE(is_named(shapes::torus(9, 7)));
+  EXPECT_TRUE(is_named(shapes::turned(shapes::torus(9, 7), all)));
+  const PolyMesh open = shapes::grid(4, 4, [](double, double) { return 0.0; });
+  EXPECT_FALSE(is_named(open));
+  EXPECT_FALSE(is_named(shapes::turned(open, all)));
 }
 
 TEST(Repair, MoebiusBandIsCutOpen) {
@@ -401,7 +416,9 @@ TEST(Repair, RemovesNoMoreThanIsAllowed) {
     EXPECT_NE(message.find("--most-removed 13"), std::string::npos) << message;
     EXPECT_NE(message.find("walls between touching solids: 4"), std::string::npos) << message;
   }
-  EXPECT_EQ(imported(row_of_cubes(3), {.most_removed_percent = 13}).mesh.face_count(), 2 * 14);
+  EXPECT_EQ(imported(row_of_cubes(3), {.most_removed_percent = 13, .longest_edge = percent(100)})
+                .mesh.face_count(),
+            2 * 14);
   EXPECT_THROW(imported(row_of_cubes(2), {.most_removed_percent = 0}), InputError);
 }
 

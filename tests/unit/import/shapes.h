@@ -127,7 +127,14 @@ inline PolyMesh torus(int n, int m, double tube = 0.4) {
   return mesh;
 }
 
-inline ImportResult imported(const PolyMesh& mesh, const ImportOptions& options = {}) {
+/// Options that leave edges as long as they are.
+inline ImportOptions undivided() {
+  ImportOptions options;
+  options.longest_edge = percent(100);
+  return options;
+}
+
+inline ImportResult imported(const PolyMesh& mesh, const ImportOptions& options = undivided()) {
   SilentObserver observer;
   ImportResult result = import_mesh(mesh, options, observer);
   validate(result.mesh);

@@ -14,9 +14,7 @@ namespace {
 
 /// An open grid of triangles with one crease along the line x = 1/2.
 TriMesh creased_grid() {
-  ImportOptions options;
-  return shapes::imported(shapes::grid(4, 4, [](double x, double) { return x < 0.5 ? x : 1 - x; }),
-                          options)
+  return shapes::imported(shapes::grid(4, 4, [](double x, double) { return x < 0.5 ? x : 1 - x; }))
       .mesh;
 }
 

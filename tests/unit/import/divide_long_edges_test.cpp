@@ -1,0 +1,142 @@
+#include "stages/import/divide_long_edges.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "common/geometry/density.h"
+#include "common/geometry/mesh_measures.h"
+#include "tests/support/attributed.h"
+#include "tests/unit/import/shapes.h"
+
+namespace strake {
+namespace {
+
+using shapes::count;
+using shapes::imported;
+
+ImportResult divided(const PolyMesh& mesh, double longest_percent) {
+  ImportOptions options;
+  options.longest_edge = percent(longest_percent);
+  return imported(mesh, options);
+}
+
+double longest_edge(const TriMesh& mesh) {
+  double longest = 0;
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    longest = std::max(longest, (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).norm());
+  }
+  return longest;
+}
+
+double feature_length(const TriMesh& mesh) {
+  double length = 0;
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    if (!mesh.is_barrier(h) || mesh.edge_of(h) != h) continue;
+    length += (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).norm();
+  }
+  return length;
+}
+
+double area(const TriMesh& mesh) {
+  const std::vector<double> areas = wedge_areas(mesh);
+  return std::accumulate(areas.begin(), areas.end(), 0.0);
+}
+
+/// A cone that is a fan of triangles around its tip, closed by another one around the middle of its
+/// base, as programs for modelling make it.
+PolyMesh fan_cone(int sides) {
+  std::vector<Vec3> positions = {Vec3(0, 0, 2), Vec3(0, 0, 0)};
+  std::vector<std::vector<Index>> faces;
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2 * std::numbers::pi * i / sides;
+    positions.emplace_back(std::cos(angle), std::sin(angle), 0);
+    const Index here = 2 + i;
+    const Index next = 2 + (i + 1) % sides;
+    faces.push_back({0, here, next});
+    faces.push_back({1, next, here});
+  }
+  return shapes::polygons(positions, faces);
+}
+
+TEST(DivideLongEdges, LeavesTheSurfaceAsItIs) {
+  for (const PolyMesh& input : {fan_cone(24), shapes::cube(), support::seamed_tube(7, 2)}) {
+    const TriMesh before = imported(input).mesh;
+    for (const double percent : {40.0, 11.0, 3.0}) {
+      const TriMesh after = divided(input, percent).mesh;
+      EXPECT_LE(longest_edge(after), percent / 100 * after.diagonal);
+      EXPECT_NEAR(area(after), area(before), 1e-9);
+      EXPECT_NEAR(shapes::volume(after), shapes::volume(before), 1e-9);
+      EXPECT_NEAR(feature_length(after), feature_length(before), 1e-9);
+      EXPECT_EQ(std::ranges::count(after.is_corner, 1), std::ranges::count(before.is_corner, 1));
+      EXPECT_EQ(census(after).euler_characteristic, census(before).euler_characteristic);
+      EXPECT_EQ(census(after).boundary_loops, census(before).boundary_loops);
+    }
+  }
+}
+
+TEST(DivideLongEdges, ChangesNothingWhereNoneIsLong) {
+  const PolyMesh torus = shapes::torus(60, 30);
+  const ImportResult result = divided(torus, 10);
+  EXPECT_EQ(result.mesh.id, imported(torus).mesh.id);
+  EXPECT_EQ(count(result.report, "division.inserted_vertices"), 0);
+}
+
+TEST(DivideLongEdges, CarriesColoursTextureAndLabels) {
+  const PolyMesh cube = support::labelled_cube(2);
+  const TriMesh mesh = divided(cube, 7).mesh;
+  ASSERT_GT(mesh.vertex_count(), 10 * cube.vertex_count());
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const Colour wanted = support::linear_colour(mesh.positions[v] + mesh.origin);
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_NEAR(mesh.attributes.colour[v][i], wanted[i], 1e-12);
+    }
+  }
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const auto& [a, b, c] = mesh.faces[f];
+    const Vec3 normal = (mesh.positions[b] - mesh.positions[a])
+                            .cross(mesh.positions[c] - mesh.positions[a])
+                            .normalized();
+    EXPECT_EQ(mesh.attributes.labels[0].of_face[f], support::side_of(normal));
+    EXPECT_EQ(mesh.attributes.labels[0].of_face[f],
+              cube.attributes.labels[0].of_face[mesh.source_face[f]]);
+  }
+  // The share of the turn is no linear function of the place, but the height is.
+  const TriMesh tube = divided(support::seamed_tube(7, 2), 7).mesh;
+  for (Index h = 0; h < tube.halfedge_count(); ++h) {
+    EXPECT_NEAR(tube.attributes.texture[h][1], (tube.positions[tube.from(h)] + tube.origin).z(),
+                1e-12);
+  }
+}
+
+/// Between vertices of the file a density is that around it, however many were inserted there.
+TEST(DivideLongEdges, LeavesADensityBetweenItsValues) {
+  const PolyMesh square = shapes::grid(1, 1, [](double, double) { return 0.0; });
+  const TriMesh mesh = divided(square, 3).mesh;
+  const std::vector<double> at_wedge = density_at_wedges(mesh, {"", {1, 5, 5, 1}});
+  for (Index w = 0; w < mesh.wedge_count(); ++w) {
+    const Vec3& p = mesh.positions[mesh.wedge_vertex[w]];
+    EXPECT_GE(at_wedge[w], 1);
+    EXPECT_LE(at_wedge[w], 5);
+    if (p.x() < 0.02 && p.y() < 0.4) {
+      EXPECT_LT(at_wedge[w], 3);
+    }
+  }
+}
+
+TEST(DivideLongEdges, StopsBeforeThereAreTooManyVertices) {
+  TriMesh mesh = imported(fan_cone(24)).mesh;
+  const double before = longest_edge(mesh);
+  const Index most = 400;
+  const Index inserted = import::divide_long_edges(mesh, 1e-3 * mesh.diagonal, most);
+  build_wedges(mesh);
+  validate(mesh);
+  EXPECT_GT(inserted, 0);
+  EXPECT_LE(mesh.vertex_count(), most);
+  EXPECT_LT(longest_edge(mesh), 0.51 * before);  // the long ones came first
+}
+
+}  // namespace
+}  // namespace strake
