@@ -21,7 +21,7 @@ namespace {
 constexpr Length kDefaultTolerance = percent(0.1);
 /// The errors of the two families of lines add up in the middle of a cell.
 constexpr double kShareOfFamily = 0.5;
-constexpr Length kDefaultMaxSpacing = percent(5);  ///< [MK04] section 3.2
+constexpr Length kDefaultMaxSpacing = percent(5);  ///< [MK04] section 3.2, at the default tolerance
 constexpr double kStopFractionOfDensity = 0.6;
 constexpr double kLargestCell = 3;         ///< in mean cell lengths, where a count is wanted
 constexpr double kSmallestSpacing = 1e-4;  ///< share of the diagonal
@@ -69,6 +69,13 @@ std::vector<Seed> random_seeds(const TraceDomain& domain, std::int64_t random_se
   return result;
 }
 
+/// Largest distance between lines that stands for a tolerance. Where that is wider than the default
+/// one it grows as distances on bends do, with the root; flats would have most of the lines else.
+double largest_spacing(double tolerance, double diagonal) {
+  const double ratio = tolerance / kDefaultTolerance.resolve(diagonal);
+  return kDefaultMaxSpacing.resolve(diagonal) * std::sqrt(std::max(1.0, ratio));
+}
+
 /// Spacings as the options ask for them, and the tolerance they stand for.
 std::pair<Spacing, double> choose_spacing(const TriMesh& mesh, const PrincipalField& field,
                                           const WantedSizes& sizes, const TraceOptions& options) {
@@ -77,7 +84,9 @@ std::pair<Spacing, double> choose_spacing(const TriMesh& mesh, const PrincipalFi
   if (wanted > 1) throw UsageError("give only one of --tolerance, --vertices and --faces");
   SpacingLimits limits;
   limits.smallest = kSmallestSpacing * mesh.diagonal;
-  limits.largest = options.max_spacing.value_or(kDefaultMaxSpacing).resolve(mesh.diagonal);
+  const double tolerance = options.tolerance.value_or(kDefaultTolerance).resolve(mesh.diagonal);
+  limits.largest = options.max_spacing ? options.max_spacing->resolve(mesh.diagonal)
+                                       : largest_spacing(tolerance, mesh.diagonal);
   SpacingModel model(mesh, field, sizes.size);
   // A size field was made from distances that had the density in them already.
   if (sizes.density != nullptr && sizes.size == nullptr) {
@@ -85,10 +94,7 @@ std::pair<Spacing, double> choose_spacing(const TriMesh& mesh, const PrincipalFi
   }
   bound_rings(mesh, model);
   Spacing spacing;
-  double family_tolerance =
-      sizes.size != nullptr
-          ? 1
-          : kShareOfFamily * options.tolerance.value_or(kDefaultTolerance).resolve(mesh.diagonal);
+  double family_tolerance = sizes.size != nullptr ? 1 : kShareOfFamily * tolerance;
   if (options.vertices || options.faces) {
     const auto count = static_cast<double>(options.vertices ? *options.vertices : *options.faces);
     double area = 0;

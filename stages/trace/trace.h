@@ -14,8 +14,9 @@ struct TraceOptions {
   std::optional<std::int64_t> vertices;  ///< wanted vertex count instead of a tolerance
   std::optional<std::int64_t> faces;     ///< wanted face count instead of a tolerance
   double spacing_scale = 1;              ///< factor on all spacings, for corrections of the count
-  std::optional<Length> max_spacing;     ///< cap on the distance between lines; default 5 %, or
-                                         ///< three mean cells where a count is wanted
+  /// Cap on the distance between lines; default: 5 % up to a tolerance of 0.1 %, growing with its
+  /// root beyond, or three mean cells where a count is wanted.
+  std::optional<Length> max_spacing;
   /// Lines stop at this share of the wanted distance; default: 0.45, with a density 0.6.
   std::optional<double> stop_fraction;
   double line_flow = 5;   ///< cells over which distances follow lines that part or converge
