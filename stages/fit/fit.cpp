@@ -53,6 +53,8 @@ constexpr double kShortestMove = 1e-8;
 constexpr double kLeastShare = 1e-12;
 constexpr std::array<double, 3> kSteps = {1, 0.5, 0.25};  ///< shares of the moves that are tried
 constexpr int kMostRetreats = 10;  ///< times that vertices are put back for one step
+/// Times the largest distance up to which faces may be parted.
+constexpr double kPartedFarther = 1.5;
 
 /// Triangles that faces are cut into by diagonals.
 std::size_t triangle_count(const PolyMesh& mesh) {
@@ -114,14 +116,19 @@ class Fit {
     return false;
   }
 
-  /// Moves vertices of crossing faces off each other. \return number of vertices moved
+  /// Moves vertices of crossing faces off each other, unless that takes some much farther off the
+  /// surface: faces cross for good where the surface does. \return number of vertices moved
   Index part() {
+    const std::vector<VertexPlaces::State> start = places_.states();
+    const double largest = deviation_.largest();
     const Index moved = fitting::move_apart(quads_.mesh, guard_, places_);
-    if (moved > 0) {
-      places_.update_feet();
-      measure();
-    }
-    return moved;
+    if (moved == 0) return 0;
+    places_.update_feet();
+    measure();
+    if (deviation_.largest() <= kPartedFarther * largest) return moved;
+    for (Index v = 0; v < system_.size(); ++v) places_.restore(v, start[v]);
+    measure();
+    return 0;
   }
 
   /// Makes crossing faces of a result with these places anew. \return number of faces

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "common/geometry/cell_error/cell_error.h"
 #include "common/geometry/face_crossings/face_crossings.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_topology.h"
@@ -15,6 +16,7 @@
 #include "tests/support/chain.h"
 #include "tests/support/matchers.h"
 #include "tests/support/mesh_support.h"
+#include "tests/support/result_cases.h"
 #include "tests/unit/fit/fit_cases.h"
 
 namespace strake {
@@ -225,6 +227,20 @@ TEST(Fit, LeavesManySheetsInOnePlaceAlone) {
   EXPECT_NE(fitted(mesh, few).mesh.positions, few.mesh.positions);
   const QuadMesh many = copies_on(mesh, 18);
   EXPECT_EQ(fitted(mesh, many).mesh.positions, many.mesh.positions);
+}
+
+/// Where sheets of the surface pass through each other so do faces; parting them would take some
+/// off the surface, far beyond what they miss it by.
+TEST(Fit, LeavesFacesThatCrossAsTheSurfaceDoesOnIt) {
+  const auto bent = [](double x, double) { return 0.3 * x * x; };
+  for (const double place : {0.85, 0.9, 0.95}) {
+    const auto through = [&](double x, double y) { return bent(x, y) + 0.1 * (x - place); };
+    const support::Case sheets = support::sheets(24, 6, {bent, through});
+    const auto largest = [&](const QuadMesh& quads) {
+      return measure_cells(ComparedSurfaces(sheets.mesh, quads)).largest;
+    };
+    EXPECT_LT(largest(fitted(sheets.mesh, sheets.quads)), 2 * largest(sheets.quads));
+  }
 }
 
 TEST(Fit, GivesTheSameBitsForAnyThreadCount) {
