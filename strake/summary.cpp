@@ -42,7 +42,7 @@ std::string summary_text(const std::string& output, const PolyMesh& mesh, const 
     text += fmt::format("  {:<28} {}{}\n", "topology",
                         *sound != 0 ? "oriented manifold" : "NOT an oriented manifold",
                         !equal        ? ""
-                        : *equal != 0 ? ", as the input"
+                        : *equal != 0 ? ", that of the input after repairs"
                                       : ", differs from the input");
   }
   for (const auto& [label, key] :

@@ -16,6 +16,11 @@ const char* result_port(const Session& session) {
   return session.has("uncrossed") ? "uncrossed" : "fitted";
 }
 
+std::int64_t given_vertex_count(const Session& session) {
+  const auto& mesh = session.get<TriMesh>("mesh");
+  return mesh.vertex_count() - std::ranges::count(mesh.source_vertex, kNone);
+}
+
 Index corner_count(const Session& session) {
   return static_cast<Index>(std::ranges::count(session.get<TriMesh>("mesh").is_corner, 1));
 }

@@ -15,6 +15,9 @@ const char* result_port(const Session& session);
 /// Vertices or faces of the quads at a port.
 std::int64_t count_of(const Session& session, const char* port, Counted counted);
 
+/// Vertices of the input that were in its file, not those that import inserted.
+std::int64_t given_vertex_count(const Session& session);
+
 /// Corners of feature and boundary lines of the input.
 Index corner_count(const Session& session);
 

@@ -29,7 +29,7 @@ void warn_of_count(Session& session, const LineAim& aim) {
 }
 
 void warn_of_excess(Session& session) {
-  const Index given = session.get<TriMesh>("mesh").vertex_count();
+  const std::int64_t given = given_vertex_count(session);
   const Index made = session.get<QuadMesh>("refined").mesh.vertex_count();
   if (made <= kExcessive * given) return;
   session.say(fmt::format(

@@ -325,8 +325,7 @@ void trace_to_count(Session& session, const GoalStages& stages, const LineAim& a
 
 /// Whether there are fewer vertices than the input has, so that lines may be too coarse for it.
 bool may_be_too_coarse(const Session& session) {
-  return count_of(session, "quads", Counted::vertices) <
-         session.get<TriMesh>("mesh").vertex_count();
+  return count_of(session, "quads", Counted::vertices) < given_vertex_count(session);
 }
 
 /// Share of the faces that lines give that cross.

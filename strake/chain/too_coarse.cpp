@@ -34,8 +34,11 @@ constexpr double kFarOff = 0.05;
 /// more quads than the other, and of another one.
 constexpr double kMuchLess = 0.5;
 constexpr double kVeryMuchLess = 0.25;
-/// Distance that is hardly more, where another fault is much less.
+/// Distance that is hardly more, where another fault is much less; that which may be where a count
+/// is missed by more than `kMissed`.
 constexpr double kHardlyMore = 1.1;
+constexpr double kMissed = 0.25;
+constexpr double kMore = 1.5;
 /// Times that the count is corrected where faces are counted, and error that is small enough.
 constexpr int kMostCorrections = 3;
 constexpr double kCountAccuracy = 0.02;
@@ -113,8 +116,9 @@ bool is_much_better(const Faults& other, const Faults& faults) {
   const bool is_sound = is_shape_missed ? other.crossing <= std::max(faults.crossing, kMostCross)
                                         : other.crossing <= faults.crossing &&
                                               other.missing <= std::max(faults.missing, kFarOff);
+  const double farther = is_as_wanted && faults.missing > kMissed ? kMore : kHardlyMore;
   return (is_nearer || is_found || crosses_less || is_as_wanted) &&
-         other.distance <= kHardlyMore * faults.distance && is_sound;
+         other.distance <= farther * faults.distance && is_sound;
 }
 
 /// Decimates until the count is met, as nearly as a few corrections allow.

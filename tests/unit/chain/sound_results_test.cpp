@@ -99,9 +99,9 @@ TEST(Remesh, WithFewVerticesFacesDoNotCross) {
 
 // The input's own faces are instead of those that cross, which takes less time than all lines anew.
 TEST(Remesh, LinesAreNotTracedAgainForSingleFacesThatCross) {
-  const PolyMesh mesh = claws(8, 0.25, 0.06, 0.6, 20000);
+  const PolyMesh mesh = claws(10, 0.3, 0.05, 0.6, 20000);
   std::int64_t uncrossed = 0;
-  for (const std::int64_t vertices : {500, 700, 900}) {
+  for (const std::int64_t vertices : {400, 500, 900}) {
     RemeshOptions options;
     options.trace.vertices = vertices;
     options.measure = false;
@@ -196,7 +196,7 @@ TEST(Remesh, LinesAreCloserOnlyWhereDividingDoesNotReachTheTolerance) {
   sample.faces = 8000;
   const auto vertices_below = [](const PolyMesh& mesh) {
     RemeshOptions options;
-    options.trace.tolerance = {0.03, false};
+    options.trace.tolerance = {0.01, false};
     options.measure = false;
     const RemeshResult result = remesh({mesh, {}, {}, {}}, options);
     const auto is_below = [](const Vec3& p) { return p.z() < -0.2; };
@@ -216,7 +216,7 @@ TEST(Remesh, WithoutAGoalFacesDoNotCross) {
     double apart;
     double width;
   };
-  for (const Ring& ring : {Ring{6, 0.2, 0.08}, Ring{6, 0.4, 0.05}, Ring{10, 0.3, 0.05}}) {
+  for (const Ring& ring : {Ring{12, 0.25, 0.05}, Ring{10, 0.2, 0.04}, Ring{12, 0.2, 0.04}}) {
     const PolyMesh mesh = claws(ring.count, ring.apart, ring.width, 0.6, 20000);
     const RemeshResult result = remesh({mesh, {}, {}, {}}, options);
     EXPECT_EQ(crossings(result.quads.mesh), 0u) << ring.count << " claws";
@@ -398,6 +398,26 @@ TEST(Remesh, CornersMergeWhereTheyAreTooManyForACount) {
   EXPECT_LT(merged.vertex_count(), 0.9 * kept.vertex_count());
 }
 
+// As modelling programs make it: a fan of triangles around the tip, whose one vertex has no
+// direction, and another one around the middle of the base.
+TEST(Remesh, AConeOfTwoFansIsRound) {
+  for (const int sides : {32, 48, 100}) {
+    PolyMesh mesh;
+    mesh.positions = {Vec3(0, 0, 2), Vec3(0, 0, 0)};
+    for (int i = 0; i < sides; ++i) {
+      const double angle = 2 * M_PI * i / sides;
+      mesh.positions.emplace_back(std::cos(angle), std::sin(angle), 0);
+    }
+    for (Index i = 0; i < sides; ++i) {
+      const Index next = (i + 1) % sides;
+      mesh.add_face(std::array<Index, 3>{0, 2 + i, 2 + next});
+      mesh.add_face(std::array<Index, 3>{1, 2 + next, 2 + i});
+    }
+    const RemeshResult result = remesh({mesh, {}, {}, {}});
+    EXPECT_LT(largest_distance(result), 1e-2 * result.mesh.diagonal) << sides;
+  }
+}
+
 // Within a tolerance that its own faces are coarse against a mesh is a polyhedron with many edges.
 TEST(Remesh, SaysWhereAToleranceTakesFarMoreVerticesThanTheInputHas) {
   const auto said_with = [](std::int64_t faces) {
@@ -405,7 +425,7 @@ TEST(Remesh, SaysWhereAToleranceTakesFarMoreVerticesThanTheInputHas) {
     sample.faces = faces;
     const PolyMesh mesh = make_sample(SampleKind::torus, sample);
     RemeshOptions options;
-    options.trace.tolerance = percent(0.3);
+    options.trace.tolerance = percent(0.1);
     options.measure = false;
     Listener listener;
     remesh({mesh, {}, {}, {}}, options, listener);

@@ -15,12 +15,13 @@ namespace strake {
 namespace {
 
 /// A plate with so many pits that a few hundred vertices cannot run lines around them all.
-PolyMesh pits() {
+PolyMesh pits(int along = 6) {
   std::vector<support::Disk> disks;
-  for (int i = 0; i < 6; ++i) {
-    for (int j = 0; j < 6; ++j) disks.push_back({Vec2(i - 2.5, j - 2.5), 0.3, 20});
+  const double middle = 0.5 * (along - 1);
+  for (int i = 0; i < along; ++i) {
+    for (int j = 0; j < along; ++j) disks.push_back({Vec2(i - middle, j - middle), 0.3, 20});
   }
-  return support::pitted_plate(3.5, disks, 0.8);
+  return support::pitted_plate(middle + 1, disks, 0.8);
 }
 
 double measure_of(const RemeshResult& result, const std::string& key) {
@@ -42,12 +43,12 @@ bool is_decimated(const RemeshResult& result) {
 }
 
 TEST(TooCoarse, DecimationTakesThePlaceOfLinesThatMissTheShape) {
-  const PolyMesh mesh = pits();
+  const PolyMesh mesh = pits(8);
   RemeshOptions options;
-  options.trace.vertices = 260;
+  options.trace.vertices = 350;
   const RemeshResult result = remesh({mesh, {}, {}, {}}, options);
   ASSERT_TRUE(is_decimated(result));
-  EXPECT_EQ(result.quads.mesh.vertex_count(), 260);
+  EXPECT_EQ(result.quads.mesh.vertex_count(), 350);
   EXPECT_EQ(measure_of(result, "shape.self_intersecting_pairs"), 0);
   EXPECT_EQ(analyse(result.quads.mesh).genus, 0);
   options.lines_only = true;
