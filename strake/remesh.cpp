@@ -168,7 +168,11 @@ void RemeshCommand::make_output() {
   console.begin("strake");
   console.report("reading " + input, 0);
   Session session(console);
-  if (!keep.empty()) session.keep_with(keeper(keep, chain.stages()));
+  if (!keep.empty()) {
+    session.keep_with(keeper(keep, chain.stages()), [](const Value& value, const TriMesh* mesh) {
+      return content_of(value, mesh);
+    });
+  }
   session.provide("input", load_value(PortKind::polygons, input), input, content_digest(input));
   for (const SideFile& file : side_files()) {
     session.provide(file.port, load_value(file.kind, file.path), file.path,

@@ -45,6 +45,15 @@ bool write_artifact(const std::filesystem::path& path, const TensorPart& part,
 bool write_artifact(const std::filesystem::path& path, const SizeField& size, const TriMesh& mesh,
                     const Provenance& provenance);
 
+/// `content_digest` of the file that `write_artifact` would make, without making it.
+std::string content_of(const TriMesh& mesh);
+std::string content_of(const TensorField& field, const TriMesh& mesh);
+std::string content_of(const PrincipalField& field, const TriMesh& mesh);
+std::string content_of(const LineSet& lines, const TriMesh& mesh);
+std::string content_of(const QuadMesh& quads);
+std::string content_of(const TensorPart& part);
+std::string content_of(const SizeField& size, const TriMesh& mesh);
+
 /// Reads an artifact back exactly as it was written.
 /// \throw InputError naming file and dataset where the file is missing, damaged, of another kind or
 ///        newer than this program, or where sizes, indices or numbers are not what they must be

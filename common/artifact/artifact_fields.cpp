@@ -79,12 +79,9 @@ Index read_number(const ArtifactReader& file, const char* name) {
 
 }  // namespace
 
-bool write_artifact(const std::filesystem::path& path, const TensorField& field,
-                    const TriMesh& mesh, const Provenance& provenance) {
-  ArtifactWriter file(path, ArtifactKind::tensor, field.mesh_id, provenance);
+void write_data(const TensorField& field, const TriMesh& mesh, ArtifactWriter& file) {
   file.wedge_grid(mesh);
   write_tensors(file, field.tensor, field.normal);
-  return file.commit();
 }
 
 TensorField read_tensor_field(const std::filesystem::path& path) {
@@ -95,9 +92,7 @@ TensorField read_tensor_field(const std::filesystem::path& path) {
   return field;
 }
 
-bool write_artifact(const std::filesystem::path& path, const TensorPart& part,
-                    const Provenance& provenance) {
-  ArtifactWriter file(path, ArtifactKind::tensor_part, part.mesh_id, provenance);
+void write_data(const TensorPart& part, ArtifactWriter& file) {
   std::vector<Index> points(part.wedge.size());
   std::iota(points.begin(), points.end(), 0);
   std::vector<Index> offsets(part.wedge.size() + 1);
@@ -110,7 +105,6 @@ bool write_artifact(const std::filesystem::path& path, const TensorPart& part,
   file.own("wedge", part.wedge);
   file.show("wedge", "PointData/wedge");
   write_tensors(file, part.tensor, part.normal);
-  return file.commit();
 }
 
 TensorPart read_tensor_part(const std::filesystem::path& path) {
@@ -133,14 +127,11 @@ TensorPart read_tensor_part(const std::filesystem::path& path) {
   return part;
 }
 
-bool write_artifact(const std::filesystem::path& path, const SizeField& size, const TriMesh& mesh,
-                    const Provenance& provenance) {
-  ArtifactWriter file(path, ArtifactKind::size, size.mesh_id, provenance);
+void write_data(const SizeField& size, const TriMesh& mesh, ArtifactWriter& file) {
   file.wedge_grid(mesh);
   file.own("along", size.along);
   file.own("across", size.across);
   for (const char* name : {"along", "across"}) file.show(name, std::string("PointData/") + name);
-  return file.commit();
 }
 
 SizeField read_size_field(const std::filesystem::path& path) {
@@ -158,9 +149,7 @@ SizeField read_size_field(const std::filesystem::path& path) {
   return size;
 }
 
-bool write_artifact(const std::filesystem::path& path, const PrincipalField& field,
-                    const TriMesh& mesh, const Provenance& provenance) {
-  ArtifactWriter file(path, ArtifactKind::field, field.mesh_id, provenance);
+void write_data(const PrincipalField& field, const TriMesh& mesh, ArtifactWriter& file) {
   file.wedge_grid(mesh);
   file.own("normal", field.normal);
   file.own("t_min", field.t_min);
@@ -175,7 +164,6 @@ bool write_artifact(const std::filesystem::path& path, const PrincipalField& fie
     file.show(name, std::string("PointData/") + name);
   }
   file.show("face_confidence", "CellData/face_confidence");
-  return file.commit();
 }
 
 PrincipalField read_principal_field(const std::filesystem::path& path) {

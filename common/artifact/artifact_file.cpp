@@ -42,19 +42,25 @@ std::string kind_name(ArtifactKind kind) { return kKindNames[static_cast<std::si
 
 ArtifactWriter::ArtifactWriter(const std::filesystem::path& path, ArtifactKind kind,
                                const std::string& mesh_id, const Provenance& provenance)
-    : target_(path), file_(target_.temporary(), path), group_("/" + kind_name(kind)) {
+    : ArtifactWriter(kind, mesh_id) {
+  target_.emplace(path);
+  file_.emplace(target_->temporary(), path);
+  file_->attribute("/", "kind", kind_name(kind));
+  file_->attribute("/", "format_version", kFormatVersion);
+  file_->attribute("/", "mesh_id", mesh_id);
+  file_->attribute("/", "provenance", provenance.to_json());
+  file_->group(group_);
+  file_->group("/VTKHDF");
+  file_->attribute("/VTKHDF", "Version", std::vector<std::int64_t>{1, 0});
+  file_->attribute("/VTKHDF", "Type", "UnstructuredGrid");
+  file_->group("/VTKHDF/PointData");
+  file_->group("/VTKHDF/CellData");
+}
+
+ArtifactWriter::ArtifactWriter(ArtifactKind kind, const std::string& mesh_id)
+    : group_("/" + kind_name(kind)) {
   const std::string identity = kind_name(kind) + " " + mesh_id;
   content_.add(identity.c_str(), identity.size() + 1);
-  file_.attribute("/", "kind", kind_name(kind));
-  file_.attribute("/", "format_version", kFormatVersion);
-  file_.attribute("/", "mesh_id", mesh_id);
-  file_.attribute("/", "provenance", provenance.to_json());
-  file_.group(group_);
-  file_.group("/VTKHDF");
-  file_.attribute("/VTKHDF", "Version", std::vector<std::int64_t>{1, 0});
-  file_.attribute("/VTKHDF", "Type", "UnstructuredGrid");
-  file_.group("/VTKHDF/PointData");
-  file_.group("/VTKHDF/CellData");
 }
 
 void ArtifactWriter::counts(std::size_t points, std::size_t cells, std::size_t connectivity) {
@@ -75,9 +81,9 @@ void ArtifactWriter::wedge_grid(const TriMesh& mesh) {
 }
 
 bool ArtifactWriter::commit() {
-  file_.attribute("/", kContent, content_.text());
-  file_.finish();
-  return target_.commit();
+  file_->attribute("/", kContent, content());
+  file_->finish();
+  return target_->commit();
 }
 
 ArtifactReader::ArtifactReader(const std::filesystem::path& path, ArtifactKind kind)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,11 +13,13 @@
 /// What all kinds of artifacts share: root attributes, the group that viewers read, checks.
 namespace strake {
 
-/// An artifact being written; appears under its name at `commit`.
+/// An artifact being written; appears under its name at `commit`. Without a path there is no file,
+/// only the digest of what it would hold.
 class ArtifactWriter {
  public:
   ArtifactWriter(const std::filesystem::path& path, ArtifactKind kind, const std::string& mesh_id,
                  const Provenance& provenance);
+  ArtifactWriter(ArtifactKind kind, const std::string& mesh_id);
 
   /// Writes a dataset of the artifact's own group.
   template <class Row>
@@ -26,11 +29,11 @@ class ArtifactWriter {
   }
   /// Makes an own dataset visible to viewers under `shown`, e.g. "PointData/normal".
   void show(const std::string& name, const std::string& shown) {
-    file_.link(group_ + "/" + name, "/VTKHDF/" + shown);
+    if (file_) file_->link(group_ + "/" + name, "/VTKHDF/" + shown);
   }
   /// Gives a dataset of the viewers' group a name in the own group.
   void adopt(const std::string& shown, const std::string& name) {
-    file_.link("/VTKHDF/" + shown, group_ + "/" + name);
+    if (file_) file_->link("/VTKHDF/" + shown, group_ + "/" + name);
   }
   /// Writes a dataset that only viewers need.
   template <class Row>
@@ -53,7 +56,10 @@ class ArtifactWriter {
   /// Writes the surface with one point per wedge, so that fields show their jumps at creases.
   void wedge_grid(const TriMesh& mesh);
 
+  /// \pre there is a file
   bool commit();
+  /// Of all that was written, as `content_digest` gives it.
+  [[nodiscard]] std::string content() const { return content_.text(); }
 
  private:
   template <class Row>
@@ -63,15 +69,25 @@ class ArtifactWriter {
     content_.add(name.c_str(), name.size() + 1);
     content_.add(&bytes, sizeof bytes);
     content_.add(rows.data(), bytes);
-    file_.dataset(name, rows, layout);
+    if (file_) file_->dataset(name, rows, layout);
   }
   void counts(std::size_t points, std::size_t cells, std::size_t connectivity);
 
-  AtomicFile target_;
-  hdf5::Writer file_;
+  std::optional<AtomicFile> target_;
+  std::optional<hdf5::Writer> file_;
   std::string group_;
   Digest content_;  ///< of all but the provenance
 };
+
+/// Writes all that an artifact holds, of each kind.
+/// \param mesh  the mesh a field or line set belongs to
+void write_data(const TriMesh& mesh, ArtifactWriter& file);
+void write_data(const TensorField& field, const TriMesh& mesh, ArtifactWriter& file);
+void write_data(const PrincipalField& field, const TriMesh& mesh, ArtifactWriter& file);
+void write_data(const LineSet& lines, const TriMesh& mesh, ArtifactWriter& file);
+void write_data(const QuadMesh& quads, ArtifactWriter& file);
+void write_data(const TensorPart& part, ArtifactWriter& file);
+void write_data(const SizeField& size, const TriMesh& mesh, ArtifactWriter& file);
 
 /// An artifact being read: kind and version are checked, datasets are checked as they are read.
 class ArtifactReader {

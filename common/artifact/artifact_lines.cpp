@@ -58,9 +58,7 @@ void require_sound(const LineSet& lines, const ArtifactReader& file) {
 
 }  // namespace
 
-bool write_artifact(const std::filesystem::path& path, const LineSet& lines, const TriMesh& mesh,
-                    const Provenance& provenance) {
-  ArtifactWriter file(path, ArtifactKind::lines, lines.mesh_id, provenance);
+void write_data(const LineSet& lines, const TriMesh& mesh, ArtifactWriter& file) {
   write_view(file, lines, mesh);
   std::vector<Index> halfedge;
   std::vector<double> lambda;
@@ -83,7 +81,6 @@ bool write_artifact(const std::filesystem::path& path, const LineSet& lines, con
   for (const char* name : {"family", "start_reason", "end_reason", "seed_point"}) {
     file.show(name, std::string("CellData/") + name);
   }
-  return file.commit();
 }
 
 LineSet read_line_set(const std::filesystem::path& path) {

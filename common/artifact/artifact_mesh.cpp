@@ -30,9 +30,7 @@ void require_connected(const TriMesh& mesh, const ArtifactReader& file) {
 
 }  // namespace
 
-bool write_artifact(const std::filesystem::path& path, const TriMesh& mesh,
-                    const Provenance& provenance) {
-  ArtifactWriter file(path, ArtifactKind::mesh, mesh.id, provenance);
+void write_data(const TriMesh& mesh, ArtifactWriter& file) {
   std::vector<Index> offsets;
   for (Index f = 0; f <= mesh.face_count(); ++f) offsets.push_back(3 * f);
   file.grid(mesh.positions, mesh.faces, offsets,
@@ -57,7 +55,6 @@ bool write_artifact(const std::filesystem::path& path, const TriMesh& mesh,
   file.show("source_vertex", "PointData/source_vertex");
   file.show("source_face", "CellData/source_face");
   write_attributes(mesh.attributes, file);
-  return file.commit();
 }
 
 TriMesh read_tri_mesh(const std::filesystem::path& path) {

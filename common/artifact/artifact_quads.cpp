@@ -7,9 +7,7 @@
 
 namespace strake {
 
-bool write_artifact(const std::filesystem::path& path, const QuadMesh& quads,
-                    const Provenance& provenance) {
-  ArtifactWriter file(path, ArtifactKind::quads, quads.mesh_id, provenance);
+void write_data(const QuadMesh& quads, ArtifactWriter& file) {
   const PolyMesh& mesh = quads.mesh;
   std::vector<std::uint8_t> types;
   for (Index f = 0; f < mesh.face_count(); ++f) {
@@ -27,7 +25,6 @@ bool write_artifact(const std::filesystem::path& path, const QuadMesh& quads,
     file.show(name, std::string("PointData/") + name);
   }
   write_attributes(mesh.attributes, file);
-  return file.commit();
 }
 
 QuadMesh read_quad_mesh(const std::filesystem::path& path) {

@@ -107,6 +107,20 @@ void save_value(const fs::path& path, const Value& value, const TriMesh* mesh,
       value);
 }
 
+std::string content_of(const Value& value, const TriMesh* mesh) {
+  const auto none = [] { return std::string(); };
+  return std::visit(
+      Overloaded{
+          [&](const Polygons&) { return none(); }, [&](const OpenedMesh&) { return none(); },
+          [&](const EdgeList&) { return none(); }, [&](const DensityField&) { return none(); },
+          [&](const GuideLines&) { return none(); },
+          [](const TriMesh& own) { return content_of(own); },
+          [](const TensorPart& part) { return content_of(part); },
+          [](const QuadMesh& quads) { return content_of(quads); },
+          [&](const auto& field) { return mesh == nullptr ? none() : content_of(field, *mesh); }},
+      value);
+}
+
 void check_output_path(PortKind kind, const fs::path& path) {
   const std::string extension = lower_extension(path);
   std::vector<std::string> allowed = {kArtifactExtension};

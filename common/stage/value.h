@@ -63,6 +63,9 @@ Value load_value(PortKind kind, const std::filesystem::path& path);
 void save_value(const std::filesystem::path& path, const Value& value, const TriMesh* mesh,
                 const Provenance& provenance);
 
+/// `content_digest` of the artifact that `save_value` would write; "" of values that are none.
+std::string content_of(const Value& value, const TriMesh* mesh);
+
 /// Refuses a file name that `save_value` could not write to, before any work is done.
 /// \throw UsageError, InputError naming the file and a remedy
 void check_output_path(PortKind kind, const std::filesystem::path& path);

@@ -11,8 +11,9 @@ void Session::provide(const std::string& port, Value value, const std::string& o
 }
 
 void Session::provide_as(const std::string& port, Value value, const std::string& source) {
-  const Entry& entry = values_.at(source);
-  provide(port, std::move(value), entry.origin, entry.digest);
+  Entry& entry = values_.at(source);
+  const std::string& digest = digest_of(entry);
+  provide(port, std::move(value), entry.origin, digest);
 }
 
 StageRecord& Session::record_of(const Stage& stage) {
@@ -22,17 +23,35 @@ StageRecord& Session::record_of(const Stage& stage) {
   return records_.emplace_back();
 }
 
-void Session::note_inputs(const Stage& stage, Provenance& provenance) const {
-  provenance.inputs.clear();
+const TriMesh* Session::mesh_of(const Value& value) const {
+  const std::string id = mesh_id_of(value);
+  for (const auto& [port, entry] : values_) {
+    const auto* mesh = entry.value ? std::get_if<TriMesh>(entry.value.get()) : nullptr;
+    if (mesh != nullptr && mesh->id == id) return mesh;
+  }
+  return nullptr;
+}
+
+const std::string& Session::digest_of(Entry& entry) const {
+  if (entry.digest.empty() && digester_ && entry.value) {
+    entry.digest = digester_(*entry.value, mesh_of(*entry.value));
+  }
+  return entry.digest;
+}
+
+void Session::note_inputs(const Stage& stage, Provenance& provenance) {
   for (const Port& port : stage.inputs) {
     const auto entry = values_.find(port.name);
-    if (entry == values_.end() || entry->second.digest.empty()) continue;
-    provenance.inputs.push_back({port.name, entry->second.digest});
+    if (entry == values_.end()) continue;
+    const std::string& digest = digest_of(entry->second);
+    if (!digest.empty()) provenance.inputs.push_back({port.name, digest});
   }
 }
 
 const Report& Session::run(const Stage& stage, const std::string& last_use_of) {
   observer_->begin(stage.name);
+  Provenance provenance = provenance_of(stage);
+  note_inputs(stage, provenance);  // before the stage, which may use some up
   Inputs inputs;
   for (const Port& port : stage.inputs) {
     const auto entry = values_.find(port.name);
@@ -51,15 +70,13 @@ const Report& Session::run(const Stage& stage, const std::string& last_use_of) {
   }
   if (result.output) provide(stage.output.name, std::move(*result.output), stage.output.name, "");
   StageRecord& record = record_of(stage);
-  record = {provenance_of(stage), std::move(result.report)};
-  note_inputs(stage, record.provenance);
+  record = {std::move(provenance), std::move(result.report)};
   return record.report;
 }
 
 void Session::keep(const Stage& stage) {
   if (!keeper_) return;
-  StageRecord& record = record_of(stage);
-  note_inputs(stage, record.provenance);
+  const StageRecord& record = record_of(stage);
   const auto entry = values_.find(stage.output.name);
   const Value* output = entry == values_.end() ? nullptr : entry->second.value.get();
   const std::string digest = keeper_({stage, record, output, get<TriMesh>("mesh"), seconds_});

@@ -31,8 +31,15 @@ class Session {
   };
   /// Writes that somewhere. \return the digest of the output as written; "" where there is none
   using Keeper = std::function<std::string(const Kept&)>;
-  /// What `keep` calls from now on; without, nothing is kept.
-  void keep_with(Keeper keeper) { keeper_ = std::move(keeper); }
+  /// The digest of a value as it would be written; "" of one that never is.
+  /// \param mesh  the mesh it belongs to; nullptr where it is none's, or that is not at hand
+  using Digester = std::function<std::string(const Value&, const TriMesh* mesh)>;
+  /// What `keep` calls from now on, and what names the inputs of what is kept that are no files;
+  /// without, nothing is kept.
+  void keep_with(Keeper keeper, Digester digester) {
+    keeper_ = std::move(keeper);
+    digester_ = std::move(digester);
+  }
 
   /// Provides a value that no stage makes. \param digest  of the file it was read from, or ""
   void provide(const std::string& port, Value value, const std::string& origin,
@@ -67,9 +74,12 @@ class Session {
   /// A line for the user.
   void say(const std::string& line) { observer_->say(line); }
 
+  [[nodiscard]] const Value& value(const std::string& port) const {
+    return *values_.at(port).value;
+  }
   template <class T>
   [[nodiscard]] const T& get(const std::string& port) const {
-    return std::get<T>(*values_.at(port).value);
+    return std::get<T>(value(port));
   }
   /// Records of the stages run, in order; the last run of each.
   [[nodiscard]] const std::vector<StageRecord>& records() const { return records_; }
@@ -78,15 +88,20 @@ class Session {
   struct Entry {
     std::shared_ptr<Value> value;  ///< nullptr: it was used up
     std::string origin;
-    std::string digest;  ///< of its file; "" where there is none
+    std::string digest;  ///< of its file, or of what that would be; "" where that is not known
   };
 
   StageRecord& record_of(const Stage& stage);
-  /// Notes the digests of those inputs that are files.
-  void note_inputs(const Stage& stage, Provenance& provenance) const;
+  /// The mesh that a field or line set belongs to; nullptr where no port holds it.
+  [[nodiscard]] const TriMesh* mesh_of(const Value& value) const;
+  /// Where stages are kept it is also that of what is no file, which costs one pass over it.
+  const std::string& digest_of(Entry& entry) const;
+  /// Notes the digests of the inputs.
+  void note_inputs(const Stage& stage, Provenance& provenance);
 
   StageObserver* observer_;
   Keeper keeper_;
+  Digester digester_;
   std::map<std::string, Entry> values_;
   std::vector<StageRecord> records_;
   std::map<std::string, double> seconds_;  // by stage, all its runs together

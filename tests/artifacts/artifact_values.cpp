@@ -224,6 +224,26 @@ Provenance make_provenance() {
           {{"mesh", "00112233445566778899aabbccddeeff"}}};
 }
 
+std::string content(ArtifactKind kind, const Values& values) {
+  switch (kind) {
+    case ArtifactKind::mesh:
+      return content_of(values.mesh);
+    case ArtifactKind::tensor:
+      return content_of(values.tensor, values.mesh);
+    case ArtifactKind::field:
+      return content_of(values.field, values.mesh);
+    case ArtifactKind::lines:
+      return content_of(values.lines, values.mesh);
+    case ArtifactKind::quads:
+      return content_of(values.quads);
+    case ArtifactKind::tensor_part:
+      return content_of(values.part);
+    case ArtifactKind::size:
+      return content_of(values.size, values.mesh);
+  }
+  return "";
+}
+
 void write(const fs::path& path, ArtifactKind kind, const Values& values,
            const Provenance& provenance) {
   switch (kind) {

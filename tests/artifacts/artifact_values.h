@@ -24,6 +24,8 @@ struct Values {
 Values make_values();
 Provenance make_provenance();
 
+/// `content_of` the value of that kind.
+std::string content(ArtifactKind kind, const Values& values);
 void write(const std::filesystem::path& path, ArtifactKind kind, const Values& values,
            const Provenance& provenance);
 /// Reads the file back and compares bit by bit with what `write` was given.

@@ -91,6 +91,11 @@ TEST_P(RoundTrip, ContentIsWhatItSaysHoweverItWasMade) {
   EXPECT_NE(content_digest(file("a.hdf")), content_digest(file("c.hdf")));
 }
 
+TEST_P(RoundTrip, ContentIsKnownWithoutAFile) {
+  write(file("a.hdf"), GetParam(), make_values(), make_provenance());
+  EXPECT_EQ(content(GetParam(), make_values()), content_digest(file("a.hdf")));
+}
+
 TEST_P(RoundTrip, LeavesNothingElseBehind) {
   write(file("a.hdf"), GetParam(), make_values(), make_provenance());
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);

@@ -36,7 +36,7 @@ TEST_F(Chain, FrontEndKeepsAToleranceAsThePrograms) {
   run_chain("part.ply", "");
   // Lines are closer where errors are too large.
   must("strake-size mesh.hdf field.hdf lines.hdf quads.hdf -o size.hdf -q --size-tolerance 0.045%");
-  must("strake-trace mesh.hdf field.hdf -o lines.hdf -q --size size.hdf");
+  must("strake-trace mesh.hdf field.hdf -o lines.hdf -q --size size.hdf --tolerance 0.1%");
   must("strake-mesh mesh.hdf lines.hdf -o quads.hdf -q");
   must("strake-fit mesh.hdf quads.hdf --field field.hdf -o fitted.hdf -q");
   // Cells are divided and vertices fitted in turn, at last without: that could undo the tolerance.
@@ -46,11 +46,18 @@ TEST_F(Chain, FrontEndKeepsAToleranceAsThePrograms) {
   must("strake-fit mesh.hdf refined1.hdf --field field.hdf -o fitted1.hdf -q");
   must("strake-refine mesh.hdf fitted1.hdf -o refined2.hdf -q" + once);
   must("strake-fit mesh.hdf refined2.hdf --field field.hdf -o fitted2.hdf -q");
-  must("strake-refine mesh.hdf fitted2.hdf -o again.obj -q" + tolerance);
+  for (const char* output : {"again.obj", "refined.hdf"}) {
+    must("strake-refine mesh.hdf fitted2.hdf --refine-sides 5 -q -o " + (output + tolerance));
+  }
   // The programs above know of no tolerance when they look for features.
   must(
-      "strake remesh part.ply -o part.obj --tolerance 0.1% --feature-height 100% --no-evaluate -q");
+      "strake remesh part.ply -o part.obj --tolerance 0.1% --feature-height 100% --no-evaluate -q "
+      "--keep kept");
   EXPECT_EQ(bytes("part.obj"), bytes("again.obj"));
+  // They say what they were made from, though that was never a file.
+  for (const std::string name : {"lines.hdf", "quads.hdf", "fitted.hdf", "refined.hdf"}) {
+    EXPECT_EQ(bytes(name), bytes("kept/" + name)) << name;
+  }
 }
 
 TEST_F(Chain, FrontEndKeepsWhatItWorksOnAsTheProgramsMakeIt) {
