@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <type_traits>
 
 #include "common/core/error.h"
@@ -43,13 +44,20 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
+/// A limit as people write it: the shortest text of a hundred million is 1e+08.
+std::string limit_text(double limit) {
+  constexpr double kMostDigits = 1e15;
+  const bool is_whole = std::floor(limit) == limit && std::abs(limit) < kMostDigits;
+  return is_whole ? std::to_string(static_cast<std::int64_t>(limit)) : number_text(limit);
+}
+
 /// "between 0 and 180 deg", "at least 1", or "" where every number is allowed.
 std::string range_text(const Option& option) {
   const bool is_length = std::holds_alternative<Length*>(option.target) ||
                          std::holds_alternative<std::optional<Length>*>(option.target);
   const std::string unit = option.unit.empty() || is_length ? "" : " " + option.unit;
   const auto limit = [&](double value) {
-    return is_length ? Length{value, true}.to_string() : number_text(value);
+    return is_length ? Length{value, true}.to_string() : limit_text(value);
   };
   const bool has_min = std::isfinite(option.min);
   const bool has_max = std::isfinite(option.max);
@@ -86,7 +94,7 @@ class Parser {
   void operator()(Length* target) const {
     const auto length = parse_length(text_);
     if (!length) refuse(allowed(kLengthHelp));
-    // The limits are shares; of a length in model units only the sign can be judged without a mesh.
+    // Of a length in model units only the sign can be judged without a mesh.
     if (length->relative) {
       check_range(length->value, kLengthHelp);
     } else if (option_.min >= 0 && length->value <= 0) {
@@ -131,6 +139,13 @@ class Parser {
   const Option& option_;
   std::string_view text_;
 };
+
+/// The length that an option holds; nullptr where it holds another thing, or nothing.
+const Length* length_of(const Option& option) {
+  if (const auto* target = std::get_if<Length*>(&option.target)) return *target;
+  const auto* target = std::get_if<std::optional<Length>*>(&option.target);
+  return target != nullptr && *target != nullptr && **target ? &***target : nullptr;
+}
 
 std::string text_of(bool value) { return value ? "true" : "false"; }
 std::string text_of(std::int64_t value) { return std::to_string(value); }
@@ -178,5 +193,20 @@ std::string Option::value() const {
 }
 
 void Option::parse_into(std::string_view text) const { std::visit(Parser(*this, text), target); }
+
+void check_lengths(const OptionList& options, double diagonal) {
+  constexpr double kRounding = 1e-9;  // of shares that were limits before they were model units
+  for (const Option& option : options) {
+    const Length* length = length_of(option);
+    if (length == nullptr || length->relative || !(diagonal > 0)) continue;
+    const double share = length->value / diagonal;
+    if (share >= option.min * (1 - kRounding) && share <= option.max * (1 + kRounding)) continue;
+    char shares[64];
+    std::snprintf(shares, sizeof shares, "%.3g%% of the bounding-box diagonal, %.6g", 100 * share,
+                  diagonal);
+    throw UsageError("option --" + option.name + ": '" + length->to_string() + "' is " + shares +
+                     "; expected a length " + range_text(option));
+  }
+}
 
 }  // namespace strake

@@ -39,8 +39,8 @@ struct Option {
   Target target;     ///< where the value lives; holds the default until parsed
   std::string unit;  ///< "deg", "length", "" ...
   std::string help;  ///< one sentence
-  /// Limits of a number; of a length they are shares and bind only what is written with '%' (a
-  /// length in model units must be positive where `min` is not negative).
+  /// Limits of a number; of a length they are shares. What is written in model units must be
+  /// positive where `min` is not negative, and is held to them by `check_lengths`.
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
   std::vector<std::string> choices = {};  ///< of a string option; empty: any text
@@ -53,6 +53,11 @@ struct Option {
 };
 
 using OptionList = std::vector<Option>;
+
+/// Holds lengths in model units to their limits, which are shares of the bounding-box diagonal:
+/// what cannot be judged before there is a mesh. \throw UsageError naming the option, the text, the
+/// share it is, and what is allowed
+void check_lengths(const OptionList& options, double diagonal);
 
 /// Gives an option another value, until it goes out of scope, however that happens.
 class OtherValue {

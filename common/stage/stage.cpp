@@ -5,6 +5,22 @@
 
 namespace strake {
 
+namespace {
+
+/// The diagonal of the mesh that the stage works on: of its mesh port where it has one.
+double diagonal_of(const Stage& stage, const Inputs& inputs, const Port* mesh_port) {
+  if (mesh_port != nullptr) return diagonal_of(*inputs.at(mesh_port->name).value);
+  for (const Port& port : stage.inputs) {
+    if (!inputs.has(port.name)) continue;
+    if (const double diagonal = diagonal_of(*inputs.at(port.name).value); diagonal > 0) {
+      return diagonal;
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+
 const Option& Stage::option(const std::string& option_name) const {
   for (const Option& option : options) {
     if (option.name == option_name) return option;
@@ -25,6 +41,7 @@ StageResult run_stage(const Stage& stage, Inputs& inputs, Observer& observer) {
             input.origin);
     }
   }
+  check_lengths(stage.options, diagonal_of(stage, inputs, mesh_port));
   StageResult result = stage.run(inputs, observer);
   if (!result.output) return result;
   if (const std::string fault = broken_invariant(*result.output); !fault.empty()) {

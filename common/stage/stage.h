@@ -109,8 +109,10 @@ Stage with_options(Stage stage, Run run) {
   return stage;
 }
 
-/// Checks that the inputs belong together, runs the stage, and checks what its result promises.
-/// \throw PreconditionError, Error(internal) where the result is unsound, and what the stage throws
+/// Checks that the inputs belong together and lengths are in range for them, runs the stage, and
+/// checks what its result promises.
+/// \throw PreconditionError, UsageError, Error(internal) where the result is unsound, and what the
+/// stage throws
 StageResult run_stage(const Stage& stage, Inputs& inputs, Observer& observer);
 
 /// The stage, its version and its resolved options; inputs are to be filled in by the caller.

@@ -75,6 +75,9 @@ void check_place(const std::string& role, const std::filesystem::path& path);
 /// The mesh a value belongs to; "" where it does not say. Of a TriMesh its own id.
 std::string mesh_id_of(const Value& value);
 
+/// The bounding-box diagonal of a mesh, of which lengths are shares; 0 of other values.
+double diagonal_of(const Value& value);
+
 /// Checks that a value was made for this mesh and fits it, so that its indices may be trusted.
 /// \param mesh_name, name  files or ports for the message
 /// \throw PreconditionError where it belongs to another mesh, InputError where it does not fit

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 
 #include "common/core/error.h"
 #include "common/stage/overloaded.h"
@@ -51,7 +52,27 @@ std::size_t wedge_count(const Value& value) {
                     value);
 }
 
+/// Of the faces: files have vertices that no face uses, and corners that are no vertices.
+double diagonal_of_faces(const PolyMesh& mesh) {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
+  Vec3 high = -low;
+  for (const Index v : mesh.corners) {
+    if (v < 0 || v >= mesh.vertex_count()) continue;
+    low = low.cwiseMin(mesh.positions[v]);
+    high = high.cwiseMax(mesh.positions[v]);
+  }
+  return low.x() <= high.x() ? (high - low).norm() : 0;
+}
+
 }  // namespace
+
+double diagonal_of(const Value& value) {
+  return std::visit(Overloaded{[](const TriMesh& mesh) { return mesh.diagonal; },
+                               [](const OpenedMesh& mesh) { return mesh->header().diagonal; },
+                               [](const Polygons& mesh) { return diagonal_of_faces(mesh.mesh); },
+                               [](const auto&) { return 0.0; }},
+                    value);
+}
 
 std::string mesh_id_of(const Value& value) {
   return std::visit(Overloaded{[](const TriMesh& mesh) { return mesh.id; },

@@ -166,6 +166,8 @@ std::string Chain::reach_goal(Session& session) const {
 std::string Chain::run(Session& session) const {
   check_goals();
   require_density_of_input(session);
+  const double diagonal = diagonal_of(session.value("input"));
+  for (const Stage* stage : stages()) check_lengths(stage->options, diagonal);
   const std::string tolerance = trace.option("tolerance").value();
   const Option& height = import.option("feature-height");
   const bool keeps_features = std::stod(import.option("feature-angle").value()) < 180;

@@ -54,6 +54,18 @@ TEST_F(Errors, MissingAndUnreadableFiles) {
   for (const char* output : {"x.obj", "t.hdf"}) EXPECT_FALSE(std::filesystem::exists(file(output)));
 }
 
+TEST_F(Errors, LengthsInModelUnitsThatAreOutOfRange) {
+  must_fail(kUsage, "strake-tensor mesh.hdf -o t.hdf --radius 1e9", "option --radius: '1e+09' is ");
+  must_fail(kUsage, "strake-tensor mesh.hdf -o t.hdf --radius 1e9", "between 0.01% and 50%");
+  must_fail(kUsage, "strake-import torus.ply -o m.hdf --feature-height 1e9", "--feature-height");
+  for (const std::string length : {"1e300", "1e-7"}) {
+    must_fail(kUsage, "strake remesh torus.ply -o x.obj --tolerance " + length,
+              "of the bounding-box diagonal, ");
+    must_fail(kUsage, "strake remesh torus.ply -o x.obj --tolerance " + length,
+              "expected a length between 1e-04% and 20%");
+  }
+}
+
 /// Whoever keeps only the last line of what is said finds the error there.
 TEST_F(Errors, FiguresThatCannotBeWrittenAreNotPrinted) {
   run_chain("torus.ply", "torus-");

@@ -159,6 +159,49 @@ TEST(Option, LimitsSharesButOnlyTheSignOfModelUnits) {
   EXPECT_EQ(radius, (Length{120, false}));
 }
 
+TEST(CheckLengths, HoldsModelUnitsToTheSameShares) {
+  std::optional<Length> radius = Length{0.6, false};
+  const OptionList options = {{.name = "radius",
+                               .target = &radius,
+                               .unit = "length",
+                               .help = "",
+                               .min = 0.0001,
+                               .max = 0.5}};
+  const auto refused = [&](double diagonal) -> std::string {
+    try {
+      check_lengths(options, diagonal);
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(refused(1).find("--radius: '0.6' is 60% of the bounding-box diagonal, 1; expected a "
+                            "length between 0.01% and 50%"),
+            std::string::npos)
+      << refused(1);
+  EXPECT_EQ(refused(2), "");
+  EXPECT_EQ(refused(5999), "");
+  EXPECT_NE(refused(6001), "");
+  // The share of either limit is not the limit to the last digit.
+  for (const double limit : {0.0001, 0.5}) {
+    for (const double diagonal : {1e-30, 0.3, 7.7, 1e60}) {
+      radius = Length{limit * diagonal, false};
+      EXPECT_EQ(refused(diagonal), "") << diagonal;
+    }
+  }
+  radius = percent(1);
+  EXPECT_EQ(refused(1e-9), "");
+  radius.reset();
+  EXPECT_EQ(refused(1e-9), "");
+}
+
+TEST(Option, WritesLimitsOfCountsInDigits) {
+  std::int64_t count = 5;
+  const Option option = {
+      .name = "vertices", .target = &count, .unit = "", .help = "", .min = 4, .max = 1e8};
+  expect_names(refusal(option, "3"), {"between 4 and 100000000"});
+}
+
 TEST(Option, RefusesUnknownChoicesAndNamesTheKnownOnes) {
   std::string extension = "cross";
   const Option option = {.name = "extension",
