@@ -139,7 +139,7 @@ void make_output(const Stage& stage, const Paths& paths, const ShellOptions& she
   }
   if (!shell.report_path.empty()) write_text(shell.report_path, record_json(record));
   // After the files: where one cannot be written, the error is all that is said.
-  if (!result.output) std::fputs(report_text(record.report).c_str(), stdout);
+  if (!result.output && !shell.quiet) std::fputs(report_text(record.report).c_str(), stdout);
   if (shell.verbose && result.output) console.say(report_text(record.report));
 }
 

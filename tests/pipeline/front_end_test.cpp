@@ -208,6 +208,10 @@ TEST_F(FrontEnd, QuietSaysNothing) {
   const Outcome outcome = run("strake remesh torus.ply -o out.obj -q");
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.out + outcome.err, "");
+  must("strake-import torus.ply -o mesh.hdf -q");
+  const Outcome measured = run("strake-evaluate mesh.hdf out.obj -o report.json -q");
+  EXPECT_EQ(measured.exit_code, 0);
+  EXPECT_EQ(measured.out + measured.err, "");
 }
 
 TEST_F(FrontEnd, LogsAsOneJsonObjectALine) {
