@@ -166,11 +166,13 @@ class Job:
             try:
                 event = json.loads(line)
             except ValueError:
-                self.error += line  # "strake: error: ..."
+                self.error += line  # of a crash
                 continue
             if event["event"] == "progress":
                 self.label = f"{event['label']}: {event['phase']}"
                 self.fraction = event["fraction"]
+            elif event["event"] == "error":
+                self.error += event["message"]
             else:
                 print("strake:", event["text"])
         return ended
@@ -189,7 +191,7 @@ class Job:
     def finish(self, context):
         """Puts the result into the scene. Returns the object that has it."""
         if self.process.returncode != 0:
-            raise Failure(self.error.strip().removeprefix("strake: error: ") or "strake failed")
+            raise Failure(self.error.strip() or "strake failed")
         mesh, colours = read_mesh(self.output, self.target.matrix_world.inverted_safe(),
                                   self.target.data.name + ".quads")
         for material in self.source.materials:

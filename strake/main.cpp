@@ -26,7 +26,7 @@ std::string version() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return strake::run_guarded("strake", [&] {
+  return strake::run_guarded("strake", strake::wanted_log_format(argc, argv), [&] {
     CLI::App app("Anisotropic quad-dominant remeshing along lines of curvature.", "strake");
     app.set_version_flag("--version", version());
     app.require_subcommand(1);

@@ -201,7 +201,7 @@ void add_remesh_command(CLI::App& app, Action& chosen) {
   remesh->add_to(*command);
   command->callback([remesh, &chosen] {
     chosen = [remesh] {
-      end_soon_after_interrupts("strake");
+      end_soon_after_interrupts("strake", remesh->shell.log_format());
       run_with_threads(remesh->shell.threads, [&] { remesh->run(); });
       return 0;
     };

@@ -17,7 +17,6 @@
 #include <utility>
 
 #include "common/artifact/atomic_file.h"
-#include "common/core/error.h"
 #include "common/stage/pace.h"
 
 namespace strake {
@@ -38,14 +37,14 @@ void on_interrupt(int /*signal*/) {
 
 constexpr std::chrono::milliseconds kPatience{500};
 
-[[noreturn]] void end_after_interrupt(int pipe, const std::string& program) {
+[[noreturn]] void end_after_interrupt(int pipe, const std::string& program, LogFormat format) {
   char byte = 0;
   while (::read(pipe, &byte, 1) != 1) {
   }
   std::this_thread::sleep_for(kPatience);
   AtomicFile::abandon_all();
   const Interrupted reason;
-  fmt::print(stderr, "{}\n", highlighted(program + ": error: " + reason.what()));
+  say_error(program, reason.what(), reason.code(), format);
   ::_exit(static_cast<int>(reason.code()));
 }
 
@@ -70,11 +69,11 @@ void catch_interrupts() {
   sigaction(SIGXFSZ, &ignore, nullptr);
 }
 
-void end_soon_after_interrupts(const std::string& program) {
+void end_soon_after_interrupts(const std::string& program, LogFormat format) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) return;  // it ends when the algorithm looks
   try {
-    std::thread(end_after_interrupt, ends[0], program).detach();
+    std::thread(end_after_interrupt, ends[0], program, format).detach();
     interrupt_pipe = ends[1];
   } catch (const std::system_error&) {  // no room for its stack: likewise
     ::close(ends[0]);
@@ -104,6 +103,18 @@ std::string highlighted(const std::string& text) {
                        text.substr(place + word.size()));
   }
   return text;
+}
+
+void say_error(const std::string& program, const std::string& message, ExitCode code,
+               LogFormat format) {
+  if (format == LogFormat::json) {
+    print_event({{"event", "error"},
+                 {"label", program},
+                 {"code", static_cast<int>(code)},
+                 {"message", message}});
+  } else {
+    fmt::print(stderr, "{}\n", highlighted(program + ": error: " + message));
+  }
 }
 
 ConsoleObserver::ConsoleObserver(Verbosity verbosity, LogFormat format)

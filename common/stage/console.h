@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "common/core/error.h"
 #include "common/core/stage_observer.h"
 
 namespace strake {
@@ -21,7 +22,8 @@ void catch_interrupts();
 /// From now on the process is ended half a second after such a signal, if it has not ended by then:
 /// algorithms look for signals only where they have a moment. Files that are not written whole are
 /// removed. For programs that have started no other processes.
-void end_soon_after_interrupts(const std::string& program);
+/// \param format  of the error that says so
+void end_soon_after_interrupts(const std::string& program, LogFormat format);
 
 /// Whether one of these signals has arrived.
 bool interrupt_requested();
@@ -32,6 +34,10 @@ bool use_colours();
 
 /// The text with a word such as "error:" or "warning:" in colour, where colours may be used.
 std::string highlighted(const std::string& text);
+
+/// Says on stderr why a program ends; as JSON {"event": "error", "label", "code", "message"}.
+void say_error(const std::string& program, const std::string& message, ExitCode code,
+               LogFormat format);
 
 /// Shows progress on stderr: a bar on a terminal, with pace and time left after a
 /// second; a line per phase otherwise. As JSON:

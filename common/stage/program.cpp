@@ -7,6 +7,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
@@ -29,6 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kLogJson = "--log-json";
 constexpr const char* kOutOfMemory =
     "out of memory; use a smaller mesh or a machine with more memory";
 
@@ -228,6 +230,18 @@ bool lacks_threads(const std::exception& error) {
   return std::string_view(error.what()).find(std::strerror(EAGAIN)) != std::string_view::npos;
 }
 
+std::string unwritable(int error) {
+  return std::string("the standard output cannot be written") +
+         (error == 0 ? "" : std::string(": ") + std::strerror(error)) +
+         "; make room, or send it elsewhere";
+}
+
+/// \throw InputError where what was printed cannot be written
+void flush_output() {
+  errno = 0;
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) throw InputError(unwritable(errno));
+}
+
 }  // namespace
 
 void add_options(CLI::App& target, const OptionList& options) {
@@ -273,7 +287,9 @@ void ShellOptions::add_to(CLI::App& app) {
                         .affects_result = false}});
   CLI::Option* quiet_flag = group->add_flag("-q,--quiet", quiet, "Say nothing but errors.");
   group->add_flag("-v,--verbose", verbose, "Print the report too.")->excludes(quiet_flag);
-  group->add_flag("--log-json", log_json, "Tell progress and warnings as JSON, one object a line.")
+  group
+      ->add_flag(kLogJson, log_json,
+                 "Tell progress, warnings and errors as JSON, one object a line.")
       ->excludes(quiet_flag);
   group->add_option("--report", report_path, "Write counts, measures and warnings as JSON.")
       ->type_name("FILE.json");
@@ -288,22 +304,31 @@ ConsoleObserver ShellOptions::console() const {
   const Verbosity verbosity = quiet     ? Verbosity::quiet
                               : verbose ? Verbosity::verbose
                                         : Verbosity::normal;
-  return ConsoleObserver(verbosity, log_json ? LogFormat::json : LogFormat::text);
+  return ConsoleObserver(verbosity, log_format());
 }
 
-int run_guarded(const std::string& program, const std::function<int()>& body) {
+LogFormat wanted_log_format(int argc, char** argv) {
+  const bool is_json = std::any_of(
+      argv, argv + argc, [](const char* word) { return std::string_view(word) == kLogJson; });
+  return is_json ? LogFormat::json : LogFormat::text;
+}
+
+int run_guarded(const std::string& program, LogFormat errors, const std::function<int()>& body) {
   const auto fail = [&](const std::string& message, ExitCode code) {
-    fmt::print(stderr, "{}\n", highlighted(program + ": error: " + message));
+    say_error(program, message, code, errors);
     return static_cast<int>(code);
   };
   try {
     catch_interrupts();
-    return body();
+    const int exit_code = body();
+    if (exit_code == 0) flush_output();  // a failure has its own code
+    return exit_code;
   } catch (const Error& error) {
     return fail(error.what(), error.code());
   } catch (const std::bad_alloc&) {
     return fail(kOutOfMemory, ExitCode::internal);
   } catch (const std::exception& error) {
+    if (std::ferror(stdout) != 0) return fail(unwritable(errno), ExitCode::bad_input);
     if (lacks_threads(error)) return fail(kOutOfMemory, ExitCode::internal);
     return fail(std::string("internal error, please report it: ") + error.what(),
                 ExitCode::internal);
@@ -340,7 +365,7 @@ void run_with_threads(std::int64_t threads, const std::function<void()>& work) {
 
 int stage_main(const Stage& stage, int argc, char** argv) {
   const std::string program = "strake-" + stage.name;
-  return run_guarded(program, [&] {
+  return run_guarded(program, wanted_log_format(argc, argv), [&] {
     CLI::App app(stage.summary, program);
     app.set_version_flag("--version", version_text(program));
     app.footer(example(stage));
@@ -350,7 +375,7 @@ int stage_main(const Stage& stage, int argc, char** argv) {
     add_options(app, stage.options);
     shell.add_to(app);
     if (const auto exit_code = parse_command_line(app, argc, argv)) return *exit_code;
-    end_soon_after_interrupts(program);
+    end_soon_after_interrupts(program, shell.log_format());
     run_with_threads(shell.threads, [&] { run_program(stage, paths, shell); });
     return 0;
   });

@@ -32,6 +32,9 @@ struct ShellOptions {
 
   /// Adds --threads, --quiet, --verbose, --log-json, --report and --repro.
   void add_to(CLI::App& app);
+  [[nodiscard]] LogFormat log_format() const {
+    return log_json ? LogFormat::json : LogFormat::text;
+  }
   /// What the running work reports to.
   [[nodiscard]] ConsoleObserver console() const;
 };
@@ -47,9 +50,13 @@ struct NamedFile {
 void check_files(const std::vector<NamedFile>& read, const std::string& output,
                  const std::string& report);
 
-/// Runs `body` with signals caught and with every error turned into a message and an exit code.
+/// The form in which a command line wants errors, its own faults among them: --log-json or text.
+LogFormat wanted_log_format(int argc, char** argv);
+
+/// Runs `body` with signals caught and with every error turned into a message and an exit code;
+/// that what it printed cannot be written is one.
 /// \return what `body` returns, or the error's exit code
-int run_guarded(const std::string& program, const std::function<int()>& body);
+int run_guarded(const std::string& program, LogFormat errors, const std::function<int()>& body);
 
 /// Parses the command line. Where it is `--generate man`, or a shell instead of "man", prints
 /// manual page or completion script of the program, for packages. \return the exit code where the

@@ -196,7 +196,7 @@ void run(Arguments arguments) {
 }  // namespace strake
 
 int main(int argc, char** argv) {
-  return strake::run_guarded("strake-render", [&] {
+  return strake::run_guarded("strake-render", strake::LogFormat::text, [&] {
     CLI::App app("Draws a polygon mesh into a PNG file.", "strake-render");
     app.set_version_flag("--version", strake::version_text("strake-render"));
     strake::Arguments arguments;

@@ -162,6 +162,9 @@ class StepRun {
       show(fmt::format("{} {:.0f} %", phase, 100 * event.value("fraction", 0.0)));
       if (phase != phase_) log(phase);
       phase_ = phase;
+    } else if (event["event"] == "error") {
+      last_line_ = event.value("label", "") + ": error: " + event.value("message", line);
+      log(last_line_);
     } else {
       log(event.value("text", line));
     }
@@ -259,7 +262,7 @@ class StepRun {
   std::ofstream log_;
   std::map<fs::path, std::optional<FileStamp>> stamps_;  ///< of the inputs, when they were checked
   std::string phase_;
-  std::string last_line_;  ///< of plain text: the error, where the program fails
+  std::string last_line_;  ///< of errors and plain text, as crashes leave it
 };
 
 }  // namespace

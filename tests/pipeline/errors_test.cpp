@@ -66,6 +66,18 @@ TEST_F(Errors, LengthsInModelUnitsThatAreOutOfRange) {
   }
 }
 
+TEST_F(Errors, AnOutputStreamThatIsFull) {
+  for (const std::string command :
+       {"strake info mesh.hdf", "strake schema", "strake completion bash", "strake check mesh.hdf",
+        "strake --help", "strake --version", "strake-import --help"}) {
+    const Outcome outcome = shell("{ " STRAKE_BIN "/" + command + " > /dev/full; }");
+    EXPECT_EQ(outcome.exit_code, kBadInput) << command;
+    EXPECT_NE(outcome.err.find("the standard output cannot be written"), std::string::npos)
+        << command << ": " << outcome.err;
+    EXPECT_EQ(outcome.err.find("internal"), std::string::npos) << outcome.err;
+  }
+}
+
 /// Whoever keeps only the last line of what is said finds the error there.
 TEST_F(Errors, FiguresThatCannotBeWrittenAreNotPrinted) {
   run_chain("torus.ply", "torus-");

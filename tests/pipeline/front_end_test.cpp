@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
+#include <tuple>
 
 #include "common/artifact/artifact.h"
 #include "common/artifact/meshfile/mesh_reader.h"
@@ -226,6 +227,24 @@ TEST_F(FrontEnd, LogsAsOneJsonObjectALine) {
   }
   EXPECT_EQ(labels, (std::set<std::string>{"strake", "import", "tensor", "smooth", "trace", "size",
                                            "mesh", "refine", "fit", "evaluate"}));
+}
+
+TEST_F(FrontEnd, LogsErrorsAsJsonToo) {
+  for (const auto& [command, label, code, part] :
+       {std::tuple{"strake remesh torus.ply -o out.obj --log-json --vertices 2", "strake", 2,
+                   "--vertices"},
+        {"strake remesh none.ply -o out.obj --log-json", "strake", 3, "none.ply"},
+        {"strake-import torus.ply -o out.hdf --log-json --strct", "strake-import", 2,
+         "--strict"}}) {
+    const Outcome outcome = run(command);
+    EXPECT_EQ(outcome.exit_code, code);
+    const std::string last = outcome.err.substr(outcome.err.rfind('{'));
+    const auto event = nlohmann::json::parse(last);
+    EXPECT_EQ(event.at("event"), "error");
+    EXPECT_EQ(event.at("label"), label);
+    EXPECT_EQ(event.at("code"), code);
+    EXPECT_NE(event.at("message").get<std::string>().find(part), std::string::npos) << last;
+  }
 }
 
 TEST_F(FrontEnd, ReportHoldsEveryStage) {
