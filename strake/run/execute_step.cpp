@@ -110,6 +110,7 @@ class StepRun {
       } else {
         require_digest(input);
       }
+      if (input.entry) store_.touch(*input.entry);  // what is needed is not old to `strake gc`
     }
   }
 
@@ -189,7 +190,7 @@ class StepRun {
     const std::optional<Entry> stored = store_.find(name, Store::Check::content, &damage);
     if (!damage.empty()) log("the store's artifact is not used: " + damage);
     if (stored && !order_.forced) {
-      store_.touch(*stored);
+      store_.touch(name);
       StepOutcome outcome;
       outcome.kind = StepOutcome::Kind::found;
       outcome.entry = name;

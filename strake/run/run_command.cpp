@@ -273,8 +273,8 @@ int RunCommand::run() {
       fmt::print("{} steps to run, {} in the store\n", stale, cached);
       return 0;
     }
-    for (const StepState& state : states) {
-      if (state.entry) store.touch(*state.entry);
+    for (std::size_t s = 0; s < states.size(); ++s) {
+      if (states[s].entry) store.touch(entry_name(plan.steps[s], states[s]));
     }
     int exit_code = 0;
     if (stale > 0) {

@@ -239,7 +239,7 @@ std::vector<StepOrder> stale_orders(const Plan& plan, const std::vector<StepStat
       input.file = states[source].entry->file;
       input.digest = states[source].entry->digest;
       input.content = states[source].entry->content;
-      input.entry = EntryName{maker.model, maker.program, *states[source].key};
+      input.entry = entry_name(maker, states[source]);
     }
     return input;
   };

@@ -81,7 +81,7 @@ class Surveyor {
       }
     }
     state.key = key_of(provenance, fs::path(step.file_name).extension().string());
-    const EntryName name{step.model, step.program, *state.key};
+    const EntryName name = entry_name(step, state);
     std::string damage;
     state.entry = store_.find(name, check_, &damage);
     if (!damage.empty()) {
@@ -148,6 +148,10 @@ class Surveyor {
 };
 
 }  // namespace
+
+EntryName entry_name(const Step& step, const StepState& state) {
+  return {step.model, step.program, *state.key};
+}
 
 std::vector<StepState> survey(const Plan& plan, const Store& store, KnownDigests& digests,
                               const std::set<std::string>& forced, Store::Check check) {

@@ -26,6 +26,9 @@ struct StepState {
   bool forced = false;             ///< wanted anew, whatever is in the store
 };
 
+/// Where the store has a step's artifact. \pre its key is known
+EntryName entry_name(const Step& step, const StepState& state);
+
 /// Compares a plan with the store. Reads the bytes of files only where their stamps have changed.
 /// \param forced  rules that are stale whatever is in the store
 /// \param check   how closely to look at what is in the store

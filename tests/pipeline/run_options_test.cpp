@@ -138,6 +138,16 @@ TEST_F(RunOptions, BadFilesLeaveNothingBehind) {
   must_fail(kBadInput, "strake run -f .", "cannot be read");
 }
 
+/// What steps of a run still need is the last that `strake gc --max-size` takes.
+TEST_F(RunOptions, InputsAreUsedByTheStepsThatReadThem) {
+  must("strake run -q");
+  const auto used = [&](const char* entry, const char* name) {
+    return fs::last_write_time(artifact(entry, name).parent_path() / "manifest.json");
+  };
+  // The mesh was made before the lines, and read by what comes after them.
+  EXPECT_GT(used("torus/import-", "mesh.hdf"), used("torus/trace-", "lines.hdf"));
+}
+
 TEST_F(RunOptions, NamesTooLongForTheSystemAreRefused) {
   const std::string name(300, 'x');
   must_fail(kBadInput, "strake run --store " + name, "cannot be made");

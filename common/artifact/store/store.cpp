@@ -225,9 +225,9 @@ std::vector<Store::Listed> Store::list(const std::string& model) const {
   return all;
 }
 
-void Store::touch(const Entry& entry) const {
+void Store::touch(const EntryName& name) const {
   if (access_ == Access::look_only) return;
-  ::utimensat(AT_FDCWD, (entry.file.parent_path() / kManifest).c_str(), nullptr, 0);
+  ::utimensat(AT_FDCWD, (folder(name) / kManifest).c_str(), nullptr, 0);
 }
 
 bool Store::remove(const fs::path& folder) const {

@@ -89,7 +89,7 @@ class Store {
   /// \param model  only its entries; "": all
   [[nodiscard]] std::vector<Listed> list(const std::string& model = "") const;
   /// Notes that the entry was of use, for `list`. Does nothing in a read-only store.
-  void touch(const Entry& entry) const;
+  void touch(const EntryName& name) const;
   /// Removes an entry, unless somebody is writing it. \return whether it is gone
   [[nodiscard]] bool remove(const std::filesystem::path& folder) const;
   /// Removes what an interrupted `remove` left behind.
