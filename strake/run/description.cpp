@@ -259,9 +259,8 @@ class Reader {
           entry.value.is_list() ? entry.value.items("files") : std::vector<YamlView>{entry.value};
       for (const YamlView& file : files) {
         const std::string text = file.text("a file name");
-        const fs::path path = (folder_ / text).lexically_normal();
         check_delivery(description_, entry, text, file.place());
-        description_.deliveries.push_back({entry.key, path.string(), file.place()});
+        description_.deliveries.push_back({entry.key, text, file.place()});
       }
     }
   }

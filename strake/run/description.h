@@ -55,7 +55,7 @@ struct Variant {
 /// A file the user wants, for every model and variant.
 struct Delivery {
   std::string artifact;
-  std::string file;  ///< absolute, with {model} and {variant} in it
+  std::string file;  ///< as written, with {model} and {variant} in it
   Place place;
 };
 

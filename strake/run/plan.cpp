@@ -133,6 +133,7 @@ class Planner {
   }
 
   void add(std::size_t model_index, const Variant& variant) {
+    const fs::path folder = description_.file.parent_path();
     const ModelEntry& model = description_.models[model_index];
     std::map<std::string, StepInput> made;
     made[kModelArtifact] = {"", kNoStep, model.file};
@@ -154,7 +155,8 @@ class Planner {
       made[rule->output] = {"", step, {}};
       for (const Delivery& delivery : description_.deliveries) {
         if (delivery.artifact != rule->output) continue;
-        deliver(step, filled_in(delivery.file, model.name, variant.name), variant, delivery.place);
+        const std::string name = filled_in(delivery.file, model.name, variant.name);
+        deliver(step, (folder / name).lexically_normal().string(), variant, delivery.place);
       }
     }
   }

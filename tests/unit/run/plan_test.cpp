@@ -1,6 +1,8 @@
 #include "strake/run/plan.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <set>
 
 #include "common/core/error.h"
@@ -51,6 +53,16 @@ TEST_F(PlanTest, VariantsShareWhatTheyDoNotChange) {
             "a.evaluate.y a.evaluate.z");
   EXPECT_EQ(step(made, "a.smooth").variants, (std::vector<std::string>{"x", "y", "z"}));
   EXPECT_EQ(step(made, "a.mesh.x").variants, (std::vector<std::string>{"x", "z"}));
+}
+
+/// Marks are filled in where the file has them, not in the name of its folder.
+TEST_F(PlanTest, FoldersMayBeNamedLikeMarks) {
+  const std::filesystem::path folder = folder_ / "{model}";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "pipeline.yaml")
+      << "version: 1\nmodels: [../a.obj]\noutputs: {quads: '{model}.hdf'}\n";
+  const Plan made = make_plan(read_description(folder / "pipeline.yaml"), {});
+  EXPECT_EQ(step(made, "a.mesh").deliver_to, (std::vector<std::string>{folder / "a.hdf"}));
 }
 
 TEST_F(PlanTest, AWrittenDefaultIsNoOtherVariant) {
