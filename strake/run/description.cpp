@@ -72,9 +72,7 @@ class Reader {
       version.fail(fmt::format("version {} is not known; this program reads version {}",
                                version.text("a version"), kVersion));
     }
-    description_.store = folder_ / (top_.count("store") ? top_.at("store").text("a folder")
-                                                        : std::string(".strake"));
-    description_.store = description_.store.lexically_normal();
+    read_store();
     description_.rules = top_.count("stages") ? read_rules(top_.at("stages"), description_.settings)
                                               : standard_rules(start());
     if (top_.count("options")) append_settings(top_.at("options"), description_.settings);
@@ -87,6 +85,15 @@ class Reader {
 
  private:
   [[nodiscard]] Place start() const { return {description_.file, 1, 1}; }
+
+  void read_store() {
+    description_.store = folder_ / ".strake";
+    if (!top_.count("store")) return;
+    const YamlView& view = top_.at("store");
+    description_.store = (folder_ / view.text("a folder") / "").lexically_normal().parent_path();
+    if (description_.store != folder_) return;
+    view.fail("the folder of the pipeline file cannot be the store; name one for results alone");
+  }
 
   /// Settings nested by rule: "trace: {seed: 7}".
   void append_settings(const YamlView& view, std::vector<Setting>& settings) const {

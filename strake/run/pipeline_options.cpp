@@ -33,7 +33,9 @@ void PipelineOptions::add_file_to(CLI::App& app) {
 
 Description PipelineOptions::read() const {
   Description description = read_description(file);
-  if (!store.empty()) description.store = fs::absolute(store).lexically_normal();
+  if (!store.empty()) {
+    description.store = (fs::absolute(store) / "").lexically_normal().parent_path();
+  }
   return description;
 }
 

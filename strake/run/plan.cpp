@@ -44,6 +44,12 @@ std::string filled_in(std::string text, const std::string& model, const std::str
   return text;
 }
 
+/// \pre both are absolute and normal
+bool is_below(const fs::path& path, const fs::path& folder) {
+  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
+         folder.end();
+}
+
 /// Faces of a model that the program makes itself: about what it is asked for.
 double sample_faces(const Step& step) {
   const Provenance provenance = step_provenance(step);
@@ -231,6 +237,12 @@ class Planner {
         if (input != file) continue;
         place.fail(fmt::format("'{}' is the '{}' of the model '{}'", file, name, model.name));
       }
+    }
+    if (is_below(file, plan_.store)) {
+      place.fail(
+          fmt::format("'{}' lies in the store, whose files are strake's own; write it to "
+                      "another folder",
+                      file));
     }
     const auto [writer, is_new] = writers_.emplace(file, step);
     if (!is_new && writer->second != step) {

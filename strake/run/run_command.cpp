@@ -80,7 +80,16 @@ void RunCommand::add_slurm_options(CLI::App& app) {
       ->allow_extra_args(false);
 }
 
-/// Refuses what the engine would silently not do.
+std::int64_t RunCommand::wanted_memory() const {
+  if (memory.empty()) return machine_memory();
+  const std::optional<double> bytes = parse_bytes(memory);
+  if (!bytes || *bytes < 1) {
+    throw UsageError("--memory '" + memory + "' is no amount of memory; write e.g. 16GB");
+  }
+  return static_cast<std::int64_t>(*bytes);
+}
+
+/// Refuses what the engine would silently not do, and what it could not take.
 void RunCommand::check_engine_options() const {
   if (engine == kSlurm) {
     if (jobs != 0 || !memory.empty()) {
@@ -90,6 +99,8 @@ void RunCommand::check_engine_options() const {
     }
   } else if (wait || !sbatch.empty()) {
     throw UsageError("--wait and --sbatch are for --engine slurm");
+  } else {
+    static_cast<void>(wanted_memory());
   }
 }
 
@@ -140,14 +151,7 @@ RunSettings RunCommand::settings(const Description& description) const {
   settings.pipeline = description.file;
   settings.targets = pipeline.targets;
   if (engine == kSlurm) return settings;
-  settings.memory = machine_memory();
-  if (!memory.empty()) {
-    const std::optional<double> bytes = parse_bytes(memory);
-    if (!bytes || *bytes < 1) {
-      throw UsageError("--memory '" + memory + "' is no amount of memory; write e.g. 16GB");
-    }
-    settings.memory = static_cast<std::int64_t>(*bytes);
-  }
+  settings.memory = wanted_memory();
   return settings;
 }
 

@@ -41,6 +41,8 @@ struct RunCommand {
 
  private:
   void check_engine_options() const;
+  /// Memory for all steps together, in bytes. \throw UsageError where --memory is none
+  [[nodiscard]] std::int64_t wanted_memory() const;
   void refuse_what_lies_before(const Plan& plan, const std::vector<StepState>& states) const;
   void print_plan(const Plan& plan, const std::vector<StepState>& states) const;
   [[nodiscard]] std::int64_t threads_for(const std::vector<StepOrder>& orders) const;

@@ -57,6 +57,7 @@ TEST_F(RunOptions, UntilAndFrom) {
   must_fail(kUsage, "strake run --set trace.seed", "trace.seed=7");
   must_fail(kUsage, "strake run tours", "did you mean 'torus'");
   must_fail(kUsage, "strake run --memory lots", "16GB");
+  must_fail(kUsage, "strake run -n --memory lots", "16GB");
 }
 
 TEST_F(RunOptions, SetIsForThisTimeOnly) {
@@ -136,6 +137,12 @@ TEST_F(RunOptions, BadFilesLeaveNothingBehind) {
   must_fail(kUsage, "strake run", "pipeline.yaml:2:10: there is no file");
   must_fail(kBadInput, "strake run -f nowhere.yaml", "nowhere.yaml");
   must_fail(kBadInput, "strake run -f .", "cannot be read");
+}
+
+TEST_F(RunOptions, AFileIsNoStore) {
+  for (const char* command : {"run -n", "run", "status"}) {
+    must_fail(kBadInput, std::string("strake ") + command + " --store pipeline.yaml", "is a file");
+  }
 }
 
 /// What steps of a run still need is the last that `strake gc --max-size` takes.

@@ -115,6 +115,10 @@ fs::path EntryName::folder() const {
 fs::path Store::side_folder(const std::string& name) const { return root_ / ("." + name); }
 
 void Store::check_format() const {
+  std::error_code ignored;
+  if (fs::exists(root_, ignored) && !fs::is_directory(root_, ignored)) {
+    throw InputError(fmt::format("store '{}' is a file; name a folder", root_.string()));
+  }
   std::ifstream stream(root_ / kFormatFile);
   if (!stream) return;
   const Json json = Json::parse(stream, nullptr, false);

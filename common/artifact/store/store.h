@@ -63,7 +63,7 @@ class Store {
   /// For small things that belong to the store but to no entry: "runs", "digests".
   [[nodiscard]] std::filesystem::path side_folder(const std::string& name) const;
 
-  /// \throw InputError where a newer strake uses the folder
+  /// \throw InputError where it is no folder, or a newer strake uses it
   void check_format() const;
   /// \throw InputError where the folder is there, but holds no store: nothing may go from it
   void require_own() const;
