@@ -114,6 +114,7 @@ class Reader {
         const bool is_list = option.value.is_list();
         const std::vector<YamlView> values =
             is_list ? option.value.items("values") : std::vector<YamlView>{option.value};
+        if (values.empty()) option.value.fail("a list of values makes variants; this one is empty");
         std::vector<Variant> combined;
         for (const Variant& variant : expanded) {
           for (const YamlView& value : values) {
@@ -297,7 +298,7 @@ Setting parse_setting(const Description& description, const std::string& text) {
   if (equals == std::string::npos || dot == std::string::npos || dot > equals) {
     throw UsageError("--set '" + text + "': write it as STAGE.OPTION=VALUE, e.g. trace.seed=7");
   }
-  const Place place{"--set " + text, 1, 1};
+  const Place place{"--set " + text};
   return checked_setting(
       description.rules,
       {text.substr(0, dot), text.substr(dot + 1, equals - dot - 1), text.substr(equals + 1), place},

@@ -178,7 +178,7 @@ int RunCommand::run_on_cluster(const Description& description, const Plan& plan,
                                const std::vector<StepState>& states) const {
   std::vector<std::string> options = description.sbatch_options;
   for (const std::string& text : sbatch) {
-    options.push_back(checked_sbatch_options(text, {"--sbatch " + text, 1, 1}));
+    options.push_back(checked_sbatch_options(text, {"--sbatch " + text}));
   }
   const std::vector<QueuedTask> queue = script_only ? std::vector<QueuedTask>() : slurm_queue();
   const Store store(plan.store);

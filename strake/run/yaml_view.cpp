@@ -13,6 +13,8 @@
 namespace strake {
 namespace {
 
+constexpr const char* kMergeKey = "<<";  ///< of YAML 1.1; the library takes it for a name
+
 /// What the parser has no mark for is an empty file, or an empty document.
 Place place_of(const std::filesystem::path& file, const YAML::Mark& mark) {
   return {file, std::max(mark.line, 0) + 1, std::max(mark.column, 0) + 1};
@@ -49,6 +51,7 @@ std::optional<YAML::Mark> second_document(std::istream& stream) {
 }  // namespace
 
 void Place::fail(const std::string& message) const {
+  if (line == 0) throw UsageError(fmt::format("{}: {}", file.string(), message));
   throw UsageError(fmt::format("{}:{}:{}: {}", file.string(), line, column, message));
 }
 
@@ -101,6 +104,11 @@ std::vector<YamlView::Entry> YamlView::entries(const char* what) const {
   for (const auto& pair : node_) {
     const YamlView key = below(pair.first);
     const std::string name = key.text("a name");
+    if (name == kMergeKey) {
+      key.fail(
+          "merge keys ('<<') are not known here; write the entries out, or give all of a value "
+          "an anchor");
+    }
     const auto [seen, is_new] = lines.emplace(name, key.place().line);
     if (!is_new) key.fail(fmt::format("'{}' stands in line {} already", name, seen->second));
     // What is not written has no place of its own.

@@ -13,10 +13,10 @@ namespace strake {
 /// A place in a text file, for messages.
 struct Place {
   std::filesystem::path file;
-  int line = 0;    ///< from 1
+  int line = 0;    ///< from 1; 0 on the command line, of which `file` is a part
   int column = 0;  ///< from 1
 
-  /// Throws a UsageError that begins with "file:line:column: ".
+  /// Throws a UsageError that begins with "file:line:column: ", or "file: ".
   [[noreturn]] void fail(const std::string& message) const;
 };
 

@@ -58,6 +58,7 @@ TEST_F(RunOptions, UntilAndFrom) {
   must_fail(kUsage, "strake run tours", "did you mean 'torus'");
   must_fail(kUsage, "strake run --memory lots", "16GB");
   must_fail(kUsage, "strake run -n --memory lots", "16GB");
+  must_fail(kUsage, "strake run --set trace.sed=3", "error: --set trace.sed=3: stage 'trace'");
 }
 
 TEST_F(RunOptions, SetIsForThisTimeOnly) {

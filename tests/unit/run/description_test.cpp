@@ -123,6 +123,12 @@ const Fault kFaults[] = {
      "3:45: ", "stop-fraction"},
     {"SlashInVariant", "version: 1\nmodels: [a.obj]\nvariants: {x/y: {}}\n",
      "3:12: ", "cannot be a name"},
+    {"NoValues", "version: 1\nmodels: [a.obj]\nvariants: {x: {trace: {seed: []}}}\n",
+     "3:30: ", "empty"},
+    {"MergeKey",
+     "version: 1\nmodels: [a.obj]\noptions:\n  trace: &t {seed: 1}\nvariants:\n  x:\n    trace:\n"
+     "      <<: *t\n",
+     "8:7: ", "merge keys"},
     {"StoreIsTheFolder", "version: 1\nstore: ''\nmodels: [a.obj]\n",
      "2:8: ", "cannot be the store"},
     {"StoreIsTheFolderByAnotherName", "version: 1\nstore: x/../\nmodels: [a.obj]\n",
