@@ -45,6 +45,7 @@ struct Option {
   double max = std::numeric_limits<double>::infinity();
   std::vector<std::string> choices = {};  ///< of a string option; empty: any text
   bool affects_result = true;             ///< false for --threads: not part of provenance and keys
+  std::string one_of = {};  ///< options of a stage with the same word here exclude each other
 
   /// The present value as text, in the form `parse_into` reads; "" for an empty optional.
   [[nodiscard]] std::string value() const;

@@ -97,13 +97,16 @@ class Reader {
 
   /// Settings nested by rule: "trace: {seed: 7}".
   void append_settings(const YamlView& view, std::vector<Setting>& settings) const {
+    std::vector<Setting> own;
     for (const YamlView::Entry& rule : view.entries("options by stage")) {
       for (const YamlView::Entry& option : rule.value.entries("options")) {
-        settings.push_back(checked_setting(
+        own.push_back(checked_setting(
             description_.rules, {rule.key, option.key, option.value.text("a value"), option.place},
             rule.place));
       }
     }
+    check_together(own);
+    settings.insert(settings.end(), own.begin(), own.end());
   }
 
   /// The variants that one entry stands for: one per combination of its lists' values.
@@ -129,6 +132,7 @@ class Reader {
       }
     }
     for (Variant& variant : expanded) {
+      check_together(variant.settings);
       check_name(variant.name, variant.place);
       for (const Variant& other : description_.variants) {
         if (other.name == variant.name) {

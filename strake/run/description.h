@@ -21,6 +21,8 @@ struct Setting {
   std::string option;
   std::string value;
   Place place;
+  /// `Option::one_of`, where the value is not empty: others of the rule with the same exclude it.
+  std::string one_of = {};
 };
 
 /// How one artifact of a model is made from others, like a rule of make.

@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "common/core/error.h"
+#include "strake/run/rules.h"
 
 namespace strake {
 
@@ -49,6 +50,7 @@ Selection PipelineOptions::selection(const Description& description) const {
   for (const std::string& text : settings) {
     selection.settings.push_back(parse_setting(description, text));
   }
+  check_together(selection.settings);
   return selection;
 }
 

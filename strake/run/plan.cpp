@@ -117,7 +117,8 @@ class Planner {
     return rules;
   }
 
-  /// Settings of a rule, weakest first.
+  /// Settings of a rule: each stronger one takes the place of those of the same option, and of
+  /// those that it excludes.
   [[nodiscard]] std::vector<Setting> settings_of(const std::string& rule, const ModelEntry& model,
                                                  const Variant& variant) const {
     std::vector<Setting> all;
@@ -125,14 +126,10 @@ class Planner {
          {&description_.settings, &model.settings, &variant.settings, &selection_.settings}) {
       for (const Setting& setting : *source) {
         if (setting.rule != rule) continue;
-        const auto same = std::find_if(all.begin(), all.end(), [&](const Setting& other) {
-          return other.option == setting.option;
+        std::erase_if(all, [&](const Setting& weaker) {
+          return weaker.option == setting.option || excludes(setting, weaker);
         });
-        if (same == all.end()) {
-          all.push_back(setting);
-        } else {
-          *same = setting;
-        }
+        all.push_back(setting);
       }
     }
     return all;

@@ -126,11 +126,14 @@ Rule read_rule(const YamlView::Entry& entry, std::vector<Setting>& settings) {
   }
   if (fields.count("resources")) read_resources(fields.at("resources"), rule);
   if (fields.count("options")) {
+    std::vector<Setting> own;
     for (const YamlView::Entry& option : fields.at("options").entries("options")) {
-      settings.push_back(checked_setting(
+      own.push_back(checked_setting(
           {rule}, {rule.name, option.key, option.value.text("a value"), option.place},
           entry.place));
     }
+    check_together(own);
+    settings.insert(settings.end(), own.begin(), own.end());
   }
   return rule;
 }
@@ -269,10 +272,26 @@ Setting checked_setting(const std::vector<Rule>& rules, Setting setting, const P
   try {
     stage.option(setting.option).parse_into(setting.value);
     setting.value = stage.option(setting.option).value();
+    if (!setting.value.empty()) setting.one_of = stage.option(setting.option).one_of;
   } catch (const UsageError& error) {
     setting.place.fail(fmt::format("stage '{}': {}", setting.rule, error.what()));
   }
   return setting;
+}
+
+bool excludes(const Setting& one, const Setting& other) {
+  return one.rule == other.rule && one.option != other.option && !one.one_of.empty() &&
+         one.one_of == other.one_of;
+}
+
+void check_together(const std::vector<Setting>& settings) {
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!excludes(settings[i], settings[j])) continue;
+      settings[i].place.fail(fmt::format("stage '{}': '{}' and '{}' exclude each other; give one",
+                                         settings[i].rule, settings[j].option, settings[i].option));
+    }
+  }
 }
 
 void check_name(std::string_view name, const Place& place) {

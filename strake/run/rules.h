@@ -34,6 +34,12 @@ std::vector<SideInput> side_inputs(const std::vector<Rule>& rules);
 /// \throw UsageError naming the place
 Setting checked_setting(const std::vector<Rule>& rules, Setting setting, const Place& rule_place);
 
+/// Whether the options of two settings exclude each other.
+bool excludes(const Setting& one, const Setting& other);
+
+/// Refuses settings of one place that exclude each other. \throw UsageError naming the place
+void check_together(const std::vector<Setting>& settings);
+
 /// Refuses names that could not be part of a file name. \throw UsageError
 void check_name(std::string_view name, const Place& place);
 

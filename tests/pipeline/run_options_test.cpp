@@ -59,6 +59,7 @@ TEST_F(RunOptions, UntilAndFrom) {
   must_fail(kUsage, "strake run --memory lots", "16GB");
   must_fail(kUsage, "strake run -n --memory lots", "16GB");
   must_fail(kUsage, "strake run --set trace.sed=3", "error: --set trace.sed=3: stage 'trace'");
+  must_fail(kUsage, "strake run --set trace.faces=9 --set trace.vertices=9", "exclude each other");
 }
 
 TEST_F(RunOptions, SetIsForThisTimeOnly) {

@@ -125,6 +125,15 @@ const Fault kFaults[] = {
      "3:12: ", "cannot be a name"},
     {"NoValues", "version: 1\nmodels: [a.obj]\nvariants: {x: {trace: {seed: []}}}\n",
      "3:30: ", "empty"},
+    {"TwoGoals", "version: 1\nmodels: [a.obj]\noptions: {trace: {tolerance: 1%, vertices: 400}}\n",
+     "3:34: ", "'tolerance' and 'vertices' exclude each other"},
+    {"TwoGoalsOfAVariant",
+     "version: 1\nmodels: [a.obj]\nvariants: {x: {trace: {vertices: 400, faces: [400]}}}\n",
+     "3:47: ", "exclude each other"},
+    {"TwoGoalsOfAStage",
+     "version: 1\nmodels: [a.obj]\nstages: {import: {}, tensor: {}, smooth: {}, "
+     "trace: {options: {faces: 9, vertices: 9}}}\n",
+     "3:74: ", "exclude each other"},
     {"MergeKey",
      "version: 1\nmodels: [a.obj]\noptions:\n  trace: &t {seed: 1}\nvariants:\n  x:\n    trace:\n"
      "      <<: *t\n",

@@ -55,6 +55,33 @@ TEST_F(PlanTest, VariantsShareWhatTheyDoNotChange) {
   EXPECT_EQ(step(made, "a.mesh.x").variants, (std::vector<std::string>{"x", "z"}));
 }
 
+/// The more specific setting decides which goal holds, not only its value.
+TEST_F(PlanTest, AStrongerGoalTakesThePlaceOfAnother) {
+  const std::string text =
+      "models: {a: {file: a.obj, options: {trace: {faces: 700}}}, b: b.ply}\n"
+      "options: {trace: {tolerance: 1%}}\nvariants: {x: {trace: {vertices: 400}}, y: {}}\n";
+  const auto goals = [](const Step& step) {
+    std::string all;
+    for (const auto& option : step_provenance(step).options) {
+      const bool is_goal =
+          option.name == "tolerance" || option.name == "vertices" || option.name == "faces";
+      if (is_goal && !option.value.empty()) all += option.name + " " + option.value;
+    }
+    return all;
+  };
+  const Plan made = plan(text);
+  EXPECT_EQ(goals(step(made, "a.trace.x")), "vertices 400");
+  EXPECT_EQ(goals(step(made, "a.trace.y")), "faces 700");
+  EXPECT_EQ(goals(step(made, "b.trace.y")), "tolerance 1%");
+  Selection selection;
+  selection.settings = {parse_setting(describe("version: 1\n" + text), "trace.tolerance=2%")};
+  EXPECT_EQ(goals(step(plan(text, selection), "a.trace")), "tolerance 2%");
+  // What is set to nothing asks for nothing, and takes nothing's place.
+  selection.settings = {parse_setting(describe("version: 1\n" + text), "trace.faces=")};
+  EXPECT_EQ(goals(step(plan(text, selection), "a.trace.x")), "vertices 400");
+  EXPECT_EQ(goals(step(plan(text, selection), "b.trace.y")), "tolerance 1%");
+}
+
 /// Marks are filled in where the file has them, not in the name of its folder.
 TEST_F(PlanTest, FoldersMayBeNamedLikeMarks) {
   const std::filesystem::path folder = folder_ / "{model}";
