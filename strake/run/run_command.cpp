@@ -240,6 +240,15 @@ int RunCommand::conclude(const RunFolder& folder, const std::vector<StepOrder>& 
   return failure;
 }
 
+/// Writes what the user wants of steps that had been made before.
+void RunCommand::write_outputs(const Plan& plan, const std::vector<StepState>& states,
+                               KnownDigests& digests) const {
+  for (const PendingDelivery& pending : pending_deliveries(plan, states, digests)) {
+    deliver(states[pending.step].entry->file, pending.file);
+    if (!quiet) fmt::print("wrote {}\n", shown_path(pending.file));
+  }
+}
+
 /// What became of the stale steps, for the last line.
 const char* RunCommand::done_to_steps() const {
   if (script_only) return "written to scripts";
@@ -274,6 +283,9 @@ int RunCommand::run() {
       return state.status == StepState::Status::cached;
     });
     if (dry_run) {
+      for (const std::string& file : files_to_write(plan, states, digests)) {
+        fmt::print("write  {}\n", shown_path(file));
+      }
       fmt::print("{} steps to run, {} in the store\n", stale, cached);
       return 0;
     }
@@ -286,9 +298,7 @@ int RunCommand::run() {
       exit_code = engine == kSlurm ? run_on_cluster(description, plan, states)
                                    : run_locally(description, plan, states);
     }
-    for (const PendingDelivery& pending : pending_deliveries(plan, states, digests)) {
-      deliver(states[pending.step].entry->file, pending.file);
-    }
+    write_outputs(plan, states, digests);
     if (exit_code == kDamaged && round < kMostRounds) {
       forced_rules.clear();
       continue;
@@ -297,8 +307,13 @@ int RunCommand::run() {
       throw InputError(
           "inputs of steps keep being changed or damaged while they are in use; see above");
     }
-    if (!quiet && exit_code == 0)
+    if (quiet || exit_code != 0) return exit_code;
+    if (script_only && stale == 0) {
+      fmt::print("nothing is stale: there are no scripts to write, {} steps in the store\n",
+                 cached);
+    } else {
       fmt::print("{} steps {}, {} in the store\n", stale, done_to_steps(), cached);
+    }
     return exit_code;
   }
 }

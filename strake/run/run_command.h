@@ -45,6 +45,8 @@ struct RunCommand {
   [[nodiscard]] std::int64_t wanted_memory() const;
   void refuse_what_lies_before(const Plan& plan, const std::vector<StepState>& states) const;
   void print_plan(const Plan& plan, const std::vector<StepState>& states) const;
+  void write_outputs(const Plan& plan, const std::vector<StepState>& states,
+                     KnownDigests& digests) const;
   [[nodiscard]] std::int64_t threads_for(const std::vector<StepOrder>& orders) const;
   [[nodiscard]] RunSettings settings(const Description& description) const;
   int run_locally(const Description& description, const Plan& plan,

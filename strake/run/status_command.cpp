@@ -73,6 +73,18 @@ void print_targets(const Plan& plan, const std::vector<StepState>& states) {
   }
 }
 
+/// Names the files that a run would write. \param all  instead of the first and how many more
+void print_outputs(const std::vector<std::string>& files, bool all) {
+  if (files.empty()) return;
+  if (all) {
+    for (const std::string& file : files) fmt::print("{:8} {}\n", "to write", shown_path(file));
+    return;
+  }
+  const std::string others = files.size() == 1 ? "" : fmt::format(" and {} more", files.size() - 1);
+  fmt::print("outputs missing or out of date: {}{}; 'strake run' writes them\n",
+             shown_path(files.front()), others);
+}
+
 int StatusCommand::run() const {
   const Description description = pipeline.read();
   const Plan plan = make_plan(description, pipeline.selection(description));
@@ -86,6 +98,7 @@ int StatusCommand::run() const {
   } else {
     print_targets(plan, states);
   }
+  print_outputs(files_to_write(plan, states, digests), steps);
   double bytes = 0;
   std::size_t entries = 0;
   for (const Store::Listed& listed : store.list()) {

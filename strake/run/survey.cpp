@@ -171,6 +171,26 @@ std::vector<PendingDelivery> pending_deliveries(const Plan& plan,
   return pending;
 }
 
+std::vector<std::string> files_to_write(const Plan& plan, const std::vector<StepState>& states,
+                                        KnownDigests& digests) {
+  std::vector<std::string> files;
+  for (std::size_t s = 0; s < plan.steps.size(); ++s) {
+    if (states[s].status != StepState::Status::stale) continue;
+    files.insert(files.end(), plan.steps[s].deliver_to.begin(), plan.steps[s].deliver_to.end());
+  }
+  for (const PendingDelivery& pending : pending_deliveries(plan, states, digests)) {
+    files.push_back(pending.file);
+  }
+  return files;
+}
+
+std::string shown_path(const fs::path& file) {
+  std::error_code ignored;
+  const fs::path from_here = file.lexically_proximate(fs::current_path(ignored));
+  const bool is_below = !from_here.empty() && *from_here.begin() != "..";
+  return (is_below ? from_here : file).string();
+}
+
 void deliver(const fs::path& artifact, const fs::path& file) {
   std::error_code error;
   if (file.has_parent_path()) fs::create_directories(file.parent_path(), error);

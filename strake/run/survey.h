@@ -46,6 +46,13 @@ std::vector<PendingDelivery> pending_deliveries(const Plan& plan,
                                                 const std::vector<StepState>& states,
                                                 KnownDigests& digests);
 
+/// Files that the user wants and that running all that is stale will make or bring up to date.
+std::vector<std::string> files_to_write(const Plan& plan, const std::vector<StepState>& states,
+                                        KnownDigests& digests);
+
+/// The path from the working folder where it is below it, for messages.
+std::string shown_path(const std::filesystem::path& file);
+
 /// Copies an artifact to a file the user wants; the file appears whole or not at all.
 /// \throw InputError
 void deliver(const std::filesystem::path& artifact, const std::filesystem::path& file);

@@ -68,7 +68,7 @@ TEST_F(RunOptions, SetIsForThisTimeOnly) {
   EXPECT_EQ(names(run_steps("--set trace.seed=7"), "ran"),
             "torus evaluate, torus export.obj, torus mesh, torus trace");
   EXPECT_NE(bytes("torus.obj"), usual);
-  EXPECT_EQ(must("strake run"), "0 steps run, 8 in the store\n");
+  EXPECT_EQ(must("strake run"), "wrote torus.obj\n0 steps run, 8 in the store\n");
   EXPECT_EQ(bytes("torus.obj"), usual);
 }
 
@@ -147,6 +147,20 @@ TEST_F(RunOptions, AFileIsNoStore) {
   }
 }
 
+TEST_F(RunOptions, TellsWhichOutputsAreMissing) {
+  const std::string wanted = "write  torus.obj\n";
+  EXPECT_NE(must("strake run -n").find(wanted), std::string::npos);
+  must("strake run -q");
+  EXPECT_EQ(must("strake run -n").find(wanted), std::string::npos);
+  EXPECT_EQ(must("strake status").find("torus.obj"), std::string::npos);
+  fs::remove(file("torus.obj"));
+  EXPECT_NE(must("strake run -n").find(wanted), std::string::npos);
+  EXPECT_NE(must("strake status").find("outputs missing or out of date: torus.obj;"),
+            std::string::npos);
+  EXPECT_NE(must("strake status --steps").find("torus.obj"), std::string::npos);
+  EXPECT_NE(must("strake run").find("wrote torus.obj\n0 steps run"), std::string::npos);
+}
+
 /// What steps of a run still need is the last that `strake gc --max-size` takes.
 TEST_F(RunOptions, InputsAreUsedByTheStepsThatReadThem) {
   must("strake run -q");
@@ -155,6 +169,13 @@ TEST_F(RunOptions, InputsAreUsedByTheStepsThatReadThem) {
   };
   // The mesh was made before the lines, and read by what comes after them.
   EXPECT_GT(used("torus/import-", "mesh.hdf"), used("torus/trace-", "lines.hdf"));
+}
+
+TEST_F(RunOptions, SaysWhereThereAreNoScriptsToWrite) {
+  must("strake run -q");
+  EXPECT_NE(must("strake submit --script-only -o jobs").find("nothing is stale"),
+            std::string::npos);
+  EXPECT_FALSE(fs::exists(file("jobs")));
 }
 
 TEST_F(RunOptions, NamesTooLongForTheSystemAreRefused) {
@@ -212,7 +233,7 @@ TEST_F(Failure, AnOutputThatCannotBeWrittenFailsItsStepOnly) {
   EXPECT_EQ(outcome.exit_code, kBadInput);
   EXPECT_NE(outcome.err.find("out/z.obj"), std::string::npos) << outcome.err;
   fs::remove(file("out"));
-  EXPECT_EQ(must("strake run --until mesh").find("0 steps run"), 0u);
+  EXPECT_EQ(must("strake run --until mesh"), "wrote out/z.obj\n0 steps run, 7 in the store\n");
   EXPECT_TRUE(fs::exists(file("out/z.obj")));
 }
 
