@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 #include <utility>
@@ -56,6 +57,23 @@ double sample_faces(const Step& step) {
   const auto faces = std::find_if(provenance.options.begin(), provenance.options.end(),
                                   [](const auto& option) { return option.name == "faces"; });
   return faces == provenance.options.end() ? 0 : std::stod(faces->value);
+}
+
+/// Vertices that the options of a step ask for, roughly; 0 where they do not say.
+double wanted_vertices(const Step& step) {
+  if (step.program == "sample") return 0;  // whose faces are those of the input
+  constexpr std::array kCounts = {"vertices", "faces", "refine-vertices", "decimate-vertices"};
+  double wanted = 0;
+  for (const Provenance::OptionRecord& option : step_provenance(step).options) {
+    if (option.value.empty()) continue;
+    if (std::find(kCounts.begin(), kCounts.end(), option.name) != kCounts.end()) {
+      wanted = std::stod(option.value);
+    } else if (option.name == "tolerance" || option.name == "refine-tolerance") {
+      const Length tolerance = Length::parse(option.value);
+      if (tolerance.relative) wanted = vertices_within(tolerance.value);
+    }
+  }
+  return wanted;
 }
 
 class Planner {
@@ -185,6 +203,10 @@ class Planner {
       if (from == made.end()) continue;  // a file that this model does not have
       step.inputs.push_back(from->second);
       step.inputs.back().port = port.name;
+    }
+    step.vertices = wanted_vertices(step);
+    for (const std::size_t need : needs_of(step)) {
+      step.vertices = std::max(step.vertices, plan_.steps[need].vertices);
     }
     return share(std::move(step), variant, rule.parts);
   }

@@ -34,7 +34,8 @@ struct Step {
   std::string file_name;                ///< of the artifact: "lines.hdf"
   std::vector<std::string> deliver_to;  ///< files to copy the artifact to, absolute
   Resources resources;
-  double faces = 0;  ///< of the model, roughly
+  double faces = 0;     ///< of the model, roughly
+  double vertices = 0;  ///< of the result it works on, roughly; 0 before there is one
   /// Steps whose artifacts are parts of this one's: with them the program is "tensor-merge".
   std::vector<std::size_t> parts;
   bool is_part = false;  ///< of use only while the step it is a part of has to run

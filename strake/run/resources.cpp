@@ -17,6 +17,11 @@ constexpr double kMega = 1e6;
 constexpr double kGiga = 1e9;
 constexpr double kLargest = 1e18;  ///< amount that is taken seriously, and fits into 64 bits
 
+struct Cost {
+  double bytes = 0;
+  double microseconds = 0;
+};
+
 /// A number followed by one of the units, or by nothing.
 std::optional<double> parse_with_unit(std::string_view text,
                                       const std::map<std::string, double, std::less<>>& units) {
@@ -36,32 +41,51 @@ std::optional<double> parse_with_unit(std::string_view text,
 
 }  // namespace
 
-std::int64_t Resources::memory(double faces) const {
-  return static_cast<std::int64_t>(std::min(bytes + bytes_per_face * faces, kLargest));
+std::int64_t Resources::memory(double faces, double vertices) const {
+  const double sum = bytes + bytes_per_face * faces + bytes_per_vertex * vertices;
+  return static_cast<std::int64_t>(std::min(sum, kLargest));
 }
 
-double Resources::time(double faces) const { return seconds + seconds_per_face * faces; }
+double Resources::time(double faces, double vertices) const {
+  return seconds + seconds_per_face * faces + seconds_per_vertex * vertices;
+}
 
 Resources default_resources(std::string_view program) {
   constexpr double kBase = 60 * kMega;
-  const auto needs = [](double bytes_per_face, double microseconds_per_face) {
-    return Resources{kBase, bytes_per_face, 30, microseconds_per_face * 1e-6, 0};
+  // Of each: bytes and microseconds, per face of the input and per vertex of the result.
+  const auto needs = [](Cost of_face, Cost of_vertex) {
+    return Resources{kBase,
+                     of_face.bytes,
+                     30,
+                     of_face.microseconds * 1e-6,
+                     0,
+                     of_vertex.bytes,
+                     of_vertex.microseconds * 1e-6};
   };
-  if (program == "sample" || program == "export") return needs(400, 20);
-  if (program == "import") return needs(700, 20);
-  if (program == "tensor") return needs(500, 200);
-  if (program == "smooth") return needs(1200, 100);
-  if (program == "coarsen") return needs(700, 20);
-  if (program == "prolong") return needs(400, 10);
-  if (program == "lift") return needs(500, 20);
-  if (program == "trace") return needs(1200, 400);
-  if (program == "mesh") return needs(1500, 100);
-  if (program == "fit") return needs(1200, 60);
-  if (program == "size") return needs(600, 60);
-  if (program == "refine" || program == "refine-uncross") return needs(800, 400);
-  if (program == "decimate") return needs(900, 60);
-  if (program == "evaluate") return needs(1200, 50);
-  return needs(1500, 400);
+  if (program == "sample") return needs({400, 20}, {});
+  if (program == "export") return needs({400, 20}, {300, 2});
+  if (program == "import") return needs({700, 20}, {});
+  if (program == "tensor") return needs({500, 200}, {});
+  if (program == "smooth") return needs({1200, 100}, {});
+  if (program == "coarsen") return needs({700, 20}, {});
+  if (program == "prolong") return needs({400, 10}, {});
+  if (program == "lift") return needs({500, 20}, {500, 10});
+  if (program == "trace") return needs({1200, 400}, {1000, 50});
+  if (program == "mesh") return needs({1500, 100}, {1000, 10});
+  if (program == "fit") return needs({1200, 60}, {4000, 200});
+  if (program == "size") return needs({600, 60}, {1000, 20});
+  if (program == "refine" || program == "refine-uncross") {
+    return needs({800, 400}, {1500, 200});
+  }
+  if (program == "decimate") return needs({900, 60}, {500, 10});
+  if (program == "evaluate") return needs({1200, 50}, {1000, 20});
+  return needs({1500, 400}, {4000, 200});
+}
+
+double vertices_within(double share) {
+  // Distances between lines go with the root of the tolerance. Measured: 1.4 to 4.2 over the share.
+  constexpr double kTimesShare = 4;
+  return kTimesShare / share;
 }
 
 std::optional<double> parse_bytes(std::string_view text) {

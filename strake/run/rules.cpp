@@ -77,9 +77,13 @@ void read_resources(const YamlView& view, Rule& rule) {
   };
   // Who gives an amount without the other part of the line means this amount.
   Resources& needs = rule.resources;
-  if (amount("memory", needs.bytes, parse_bytes, "2GB")) needs.bytes_per_face = 0;
+  if (amount("memory", needs.bytes, parse_bytes, "2GB")) {
+    needs.bytes_per_face = needs.bytes_per_vertex = 0;
+  }
   amount("memory-per-face", needs.bytes_per_face, parse_bytes, "300B");
-  if (amount("time", needs.seconds, parse_seconds, "10min")) needs.seconds_per_face = 0;
+  if (amount("time", needs.seconds, parse_seconds, "10min")) {
+    needs.seconds_per_face = needs.seconds_per_vertex = 0;
+  }
   amount("time-per-face", needs.seconds_per_face, parse_seconds, "20us");
   if (fields.count("threads")) needs.threads = whole_number(fields.at("threads"), 0, 4096);
   if (fields.count("parts")) {

@@ -268,8 +268,8 @@ std::vector<StepOrder> stale_orders(const Plan& plan, const std::vector<StepStat
     for (const std::size_t part : step.parts) order.parts.push_back(input_of("part", part));
     order.file_name = step.file_name;
     order.deliver_to = step.deliver_to;
-    order.memory = step.resources.memory(step.faces);
-    order.seconds = step.resources.time(step.faces);
+    order.memory = step.resources.memory(step.faces, step.vertices);
+    order.seconds = step.resources.time(step.faces, step.vertices);
     order.threads = step.resources.threads > 0 ? step.resources.threads : threads;
     order.forced = states[s].forced;
     orders.push_back(std::move(order));

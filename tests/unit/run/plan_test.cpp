@@ -82,6 +82,20 @@ TEST_F(PlanTest, AStrongerGoalTakesThePlaceOfAnother) {
   EXPECT_EQ(goals(step(plan(text, selection), "b.trace.y")), "tolerance 1%");
 }
 
+/// From the first stage that makes something of the wanted size.
+TEST_F(PlanTest, ResultsAreAsLargeAsTheyAreWanted) {
+  const Plan made = plan(
+      "models: [a.obj]\nvariants: {x: {trace: {vertices: 9000}}, y: {trace: {tolerance: 0.1%}}, "
+      "z: {trace: {tolerance: 2}}, s: {}}\n");
+  EXPECT_EQ(step(made, "a.smooth").vertices, 0);
+  EXPECT_EQ(step(made, "a.trace.x").vertices, 9000);
+  EXPECT_EQ(step(made, "a.evaluate.x").vertices, 9000);
+  EXPECT_EQ(step(made, "a.mesh.y").vertices, vertices_within(0.001));
+  // Of model units only the model tells.
+  EXPECT_EQ(step(made, "a.mesh.z").vertices, 0);
+  EXPECT_EQ(step(made, "a.mesh.s").vertices, 0);
+}
+
 /// Marks are filled in where the file has them, not in the name of its folder.
 TEST_F(PlanTest, FoldersMayBeNamedLikeMarks) {
   const std::filesystem::path folder = folder_ / "{model}";

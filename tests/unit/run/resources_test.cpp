@@ -40,11 +40,25 @@ TEST(Resources, TextsNameTheUnit) {
 }
 
 TEST(Resources, NeedsGrowWithTheFacesAndStayANumber) {
-  const Resources needs = {100, 2, 10, 0.5, 0};
-  EXPECT_EQ(needs.memory(50), 200);
-  EXPECT_EQ(needs.time(50), 35);
-  const Resources absurd = {1e18, 1e18, 0, 0, 0};
-  EXPECT_GT(absurd.memory(1e9), 0);
+  const Resources needs = {100, 2, 10, 0.5, 0, 3, 0.1};
+  EXPECT_EQ(needs.memory(50, 0), 200);
+  EXPECT_EQ(needs.memory(50, 10), 230);
+  EXPECT_EQ(needs.time(50, 0), 35);
+  EXPECT_EQ(needs.time(50, 10), 36);
+  const Resources absurd = {1e18, 1e18, 0, 0, 0, 1e18, 0};
+  EXPECT_GT(absurd.memory(1e9, 1e9), 0);
+}
+
+/// Measured on a model of 11,092 faces, for a count and within a tolerance.
+TEST(Resources, AreEnoughForFineResults) {
+  constexpr double kFaces = 11092;
+  constexpr double kCount = 500000;
+  EXPECT_GE(default_resources("trace").memory(kFaces, kCount), 377e6);
+  EXPECT_GE(default_resources("mesh").memory(kFaces, kCount), 335e6);
+  EXPECT_GE(default_resources("fit").memory(kFaces, kCount), 1862e6);
+  EXPECT_GE(default_resources("fit").memory(kFaces, vertices_within(1e-5)), 506e6);
+  EXPECT_GE(default_resources("evaluate").memory(kFaces, kCount), 531e6);
+  EXPECT_LT(default_resources("fit").memory(kFaces, 2000), 100e6) << "small ones run abreast";
 }
 
 TEST(Resources, FacesAreNeverEstimatedFarTooLow) {
