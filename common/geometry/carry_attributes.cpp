@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <span>
@@ -77,7 +78,8 @@ class CornerPlaces {
     return normal.stableNormalized().cross(onward - back).stableNormalized();
   }
 
-  /// How far a unit direction from a point on a triangle's outline leads into the triangle.
+  /// How far a unit direction from a point on a triangle's outline leads into the triangle, and not
+  /// away from its plane: along an edge where three sides of a cube meet two are equally far in.
   [[nodiscard]] double support(const Place& place, const Vec3& direction) const {
     const auto& corners = mesh_.faces[place.face];
     const auto at = [&](int k) -> const Vec3& { return mesh_.positions[corners[k % 3]]; };
@@ -89,7 +91,7 @@ class CornerPlaces {
       const Vec3 side = (at(i + 1) - at(i)).stableNormalized();
       least = std::min(least, normal.cross(side).dot(direction));
     }
-    return least;
+    return least - std::abs(normal.dot(direction));
   }
 
   const TriMesh& mesh_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "common/core/error.h"
@@ -69,6 +70,15 @@ double wanted_length(const TriMesh& mesh, const LineSet& lines, const PolygonGra
 /// Three times the volume, with its sign, of the cone from an apex over a polygon.
 double cone_volume(const Vec3& apex, const Polygon& p) { return (p[0] - apex).dot(vector_area(p)); }
 
+/// The least of that over all ways to cut the polygon into triangles around a corner, times `sign`:
+/// bent faces may be cut along any of these.
+double least_cone_volume(const Vec3& apex, const Polygon& p, double sign) {
+  const Vec3 area = vector_area(p);
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vec3& corner : p) least = std::min(least, sign * (corner - apex).dot(area));
+  return least;
+}
+
 /// Takes the next step, up to `last`, for components that have too few cells to be a surface.
 /// \return whether there were any
 bool find_starved(const TriMesh& mesh, const std::vector<Index>& component,
@@ -89,7 +99,8 @@ bool find_starved(const TriMesh& mesh, const std::vector<Index>& component,
     if (cell.size() < 3) return;
     const Index c = component[graph.node(g.from(d)).face];
     ++cells[c];
-    enclosed[c] += cone_volume(apex[c], corner_positions(graph, cell));
+    enclosed[c] +=
+        least_cone_volume(apex[c], corner_positions(graph, cell), volume[c] < 0 ? -1 : 1);
   });
   std::vector<char> open(triangles.size(), 0);  // one cell is enough for a surface with boundary
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
@@ -97,8 +108,8 @@ bool find_starved(const TriMesh& mesh, const std::vector<Index>& component,
   }
   bool found = false;
   for (std::size_t c = 0; c < triangles.size(); ++c) {
-    const bool is_empty = open[c] == 0 && cells[c] <= kFewCells &&
-                          enclosed[c] * volume[c] < kLeastVolume * volume[c] * volume[c];
+    const bool is_empty =
+        open[c] == 0 && cells[c] <= kFewCells && enclosed[c] < kLeastVolume * std::abs(volume[c]);
     const bool is_starved = cells[c] < (open[c] != 0 ? 1 : kFewestCells) || is_empty;
     if (triangles[c] == last || !is_starved) continue;
     triangles[c] = triangles[c] == Triangles::merged ? Triangles::kept : Triangles::held;

@@ -10,7 +10,9 @@ int main() {
   flat.offsets = {0, 4};
   flat.corners = {0, 1, 2, 3};
   strake::SilentObserver observer;
-  const strake::TriMesh mesh = strake::import_mesh(flat, {}, observer).mesh;
+  strake::ImportOptions undivided;
+  undivided.longest_edge = strake::percent(100);
+  const strake::TriMesh mesh = strake::import_mesh(flat, undivided, observer).mesh;
   const strake::TensorField field = strake::estimate_tensors(mesh, {}, observer).field;
   for (const auto& tensor : field.tensor) {
     for (const double value : tensor) {

@@ -124,7 +124,7 @@ class Stages(unittest.TestCase):
         box = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], dtype=float)
         quads = np.array([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2],
                           [1, 3, 7, 5]])
-        meshes = [strake.import_mesh(box, faces) for faces in (
+        meshes = [strake.import_mesh(box, faces, longest_edge="100%") for faces in (
             quads, quads.tolist(), (np.arange(7) * 4, quads.ravel()),
             strake.Faces(np.arange(7) * 4, quads.ravel()))]
         self.assertEqual(len({mesh.id for mesh in meshes}), 1)
@@ -133,7 +133,8 @@ class Stages(unittest.TestCase):
         self.assertEqual(meshes[0].is_feature.sum(), 2 * 12)
         smooth = strake.import_mesh(box, quads, feature_angle=180)
         self.assertEqual(smooth.is_feature.sum(), 0)
-        listed = strake.import_mesh(box, quads, feature_angle=180, feature_edges=[[0, 1]])
+        listed = strake.import_mesh(box, quads, feature_angle=180, feature_edges=[[0, 1]],
+                                    longest_edge="100%")
         self.assertEqual(listed.is_feature.sum(), 2)
 
     def test_edges_run_along_guides(self):
@@ -162,7 +163,8 @@ class Stages(unittest.TestCase):
         self.assertEqual(set(result.quad_mesh.labels["material"]), {3, 4})
         self.assertEqual(result.quad_mesh.label_names, {})
         # The mesh after import has them too, and so has what single stages make of it.
-        mesh = strake.import_mesh(vertices, faces, colours=colours, labels=labels)
+        mesh = strake.import_mesh(vertices, faces, colours=colours, labels=labels,
+                                  longest_edge="100%")
         np.testing.assert_array_equal(mesh.colours[:, :3], colours[mesh.source_vertex])
         field = strake.smooth(mesh, strake.tensor(mesh))
         quads = strake.mesh(mesh, strake.trace(mesh, field, vertices_wanted=300))
@@ -229,7 +231,7 @@ class Errors(unittest.TestCase):
         bad = np.concatenate([faces, [[0, 1, 10**6], [0, -1, 2], [0, 0, 1]]])
         with warnings.catch_warnings(record=True) as told:
             warnings.simplefilter("always")
-            mesh = strake.import_mesh(vertices, bad)
+            mesh = strake.import_mesh(vertices, bad, longest_edge="100%")
         self.assertEqual(len(mesh.faces), len(faces))
         self.assertIn("faces dropped", str(told[0].message))
         vertices = vertices.copy()
