@@ -1,6 +1,8 @@
 #include "stages/import/divide_long_edges.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -9,6 +11,9 @@
 
 namespace strake::import {
 namespace {
+
+/// Of the wanted length, below which a face is a needle: no piece of it would be less of one.
+constexpr double kNeedle = 0.005;
 
 double edge_length(const TriMesh& mesh, Index h) {
   return (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).norm();
@@ -21,12 +26,47 @@ double longest_edge(const TriMesh& mesh) {
   return longest;
 }
 
-/// The new vertex of each edge that is longer than `longest`.
+/// The height of a face over its longest edge.
+double face_width(const TriMesh& mesh, Index f) {
+  double longest = 0;
+  for (Index h = 3 * f; h < 3 * f + 3; ++h) longest = std::max(longest, edge_length(mesh, h));
+  const auto& [a, b, c] = mesh.faces[f];
+  const Vec3& p = mesh.positions[a];
+  return (mesh.positions[b] - p).cross(mesh.positions[c] - p).norm() / longest;
+}
+
+/// Edges that are longer than a length and have a face beside them that is no needle.
+class LongEdges {
+ public:
+  LongEdges(const TriMesh& mesh, double length, double least_width)
+      : mesh_(mesh), length_(length), least_width_(least_width) {}
+
+  /// Calls use(half-edge) once for each.
+  template <class Use>
+  void for_each(const Use& use) const {
+    for (Index h = 0; h < mesh_.halfedge_count(); ++h) {
+      if (mesh_.edge_of(h) == h && edge_length(mesh_, h) > length_ && is_worth(h)) use(h);
+    }
+  }
+
+ private:
+  [[nodiscard]] bool is_worth(Index h) const {
+    const auto is_wide = [&](Index side) {
+      return side != kNone && face_width(mesh_, TriMesh::face_of(side)) >= least_width_;
+    };
+    return is_wide(h) || is_wide(mesh_.twin[h]);
+  }
+
+  const TriMesh& mesh_;
+  double length_;
+  double least_width_;
+};
+
+/// The new vertex of each of the edges.
 /// \return [3F] kNone of the others
-std::vector<Index> halve_edges(TriMesh& mesh, double longest) {
+std::vector<Index> halve(const std::vector<Index>& edges, TriMesh& mesh) {
   std::vector<Index> middle(static_cast<std::size_t>(mesh.halfedge_count()), kNone);
-  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
-    if (mesh.edge_of(h) != h || edge_length(mesh, h) <= longest) continue;
+  for (const Index h : edges) {
     middle[h] = mesh.vertex_count();
     if (mesh.twin[h] != kNone) middle[mesh.twin[h]] = middle[h];
     const Index a = mesh.from(h);
@@ -143,14 +183,6 @@ class FaceDivision {
   std::vector<std::vector<Index>> labels_;
 };
 
-Index count_longer(const TriMesh& mesh, double length) {
-  Index count = 0;
-  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
-    if (mesh.edge_of(h) == h && edge_length(mesh, h) > length) ++count;
-  }
-  return count;
-}
-
 }  // namespace
 
 Index divide_long_edges(TriMesh& mesh, double longest, Index most_vertices) {
@@ -158,10 +190,14 @@ Index divide_long_edges(TriMesh& mesh, double longest, Index most_vertices) {
   const double halvings = std::ceil(std::log2(longest_edge(mesh) / longest));
   for (double left = halvings - 1; left >= 0; --left) {
     const double length = longest * std::exp2(left);
-    // Halves of the edges across a face may still be too long.
-    for (Index count = count_longer(mesh, length); count > 0; count = count_longer(mesh, length)) {
-      if (mesh.vertex_count() + count > most_vertices) return mesh.vertex_count() - before;
-      const std::vector<Index> middle = halve_edges(mesh, length);
+    while (true) {  // the edges across a face that is divided may be too long, too
+      std::vector<Index> edges;
+      LongEdges(mesh, length, kNeedle * longest).for_each([&](Index h) { edges.push_back(h); });
+      if (edges.empty()) break;
+      if (mesh.vertex_count() + static_cast<Index>(edges.size()) > most_vertices) {
+        return mesh.vertex_count() - before;
+      }
+      const std::vector<Index> middle = halve(edges, mesh);
       FaceDivision division(mesh, middle);
       for (Index f = 0; f < mesh.face_count(); ++f) division.divide(f);
       division.store(mesh);

@@ -4,8 +4,9 @@
 
 namespace strake::import {
 
-/// Divides edges that are longer than `longest`, and the faces beside them, until none is or there
-/// would be more than `most_vertices`. The surface stays what it is, and so do its features.
+/// Divides edges that are longer than `longest`, but for those between needles, and the faces
+/// beside them, until none is or there would be more than `most_vertices`. The surface stays what
+/// it is, and so do its features.
 ///
 /// Fields live on vertices: the one direction at the tip of a cone that is a fan of triangles, or
 /// in the middle of a disk that has vertices along its rim only, says nothing. [MK04 §3.2]

@@ -334,9 +334,17 @@ double crossing_share(const Session& session, CrossingPlaces& crossing) {
   return static_cast<double>(crossing.of(faces).size()) / faces.face_count();
 }
 
+/// Whether sheets of the result last looked at lie on top of each other: all that is measured takes
+/// many times as long there, and says little.
+bool is_stacked(const Session& session, const CrossingPlaces& crossing) {
+  return static_cast<std::int64_t>(crossing.pair_count()) >
+         count_of(session, "quads", Counted::faces);
+}
+
 /// Traces, and closer where so many faces cross that lines are too coarse for the shape. Then makes
 /// errors even, unless that brings crossing faces back.
-void trace_freely(Session& session, const GoalStages& stages, std::int64_t feedback_rounds) {
+/// \return whether errors were looked at
+bool trace_freely(Session& session, const GoalStages& stages, std::int64_t feedback_rounds) {
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
   trace_and_mesh(session, stages);
   double share = crossing_share(session, crossing);
@@ -347,16 +355,18 @@ void trace_freely(Session& session, const GoalStages& stages, std::int64_t feedb
     trace_and_mesh(session, stages);
     share = crossing_share(session, crossing);
   }
+  if (feedback_rounds == 0 || is_stacked(session, crossing)) return false;
   for (std::int64_t round = 0; round < feedback_rounds; ++round) {
     const Session before = session;
     even_out(session, stages);
     const double now = crossing_share(session, crossing);
     if (now > std::max(share, kTooManyCross)) {
       session = before;
-      return;
+      break;
     }
     share = now;
   }
+  return true;
 }
 
 /// Fits what the present lines give, with some more vertices by dividing the worst cells.
@@ -402,9 +412,8 @@ std::string follow_spacing(Session& session, const GoalStages& stages,
   // A density says where vertices go, not the errors.
   const std::int64_t rounds =
       feedback_rounds.value_or(session.has("density") ? 0 : kFeedbackRounds);
-  trace_freely(session, stages, rounds);
-  return fit_freely(session, stages,
-                    rounds > 0 && goes_by_errors(session, stages) ? kLeftForWorst : 0);
+  const bool by_errors = trace_freely(session, stages, rounds) && goes_by_errors(session, stages);
+  return fit_freely(session, stages, by_errors ? kLeftForWorst : 0);
 }
 
 std::string meet_tolerance(Session& session, const GoalStages& stages, const std::string& tolerance,

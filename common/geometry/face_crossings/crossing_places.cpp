@@ -3,7 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <map>
+#include <cstdint>
 #include <set>
 #include <utility>
 
@@ -63,20 +63,25 @@ CrossingPlaces::Place CrossingPlaces::place_of(const PolyMesh& result, Index fac
 
 std::vector<Index> CrossingPlaces::faces_of(const PolyMesh& result) {
   const auto pairs = find_crossing_faces(result.positions, triangulate_faces(result));
-  std::map<Index, Place> places;  // by face
+  pair_count_ = pairs.size();
+  std::set<Index> crossed;
+  for (const auto& pair : pairs) crossed.insert(pair.begin(), pair.end());
+  const std::vector<Index> faces(crossed.begin(), crossed.end());
+  std::vector<Place> places;
+  for (const Index f : faces) places.push_back(place_of(result, f));
+  look_around(places);
+  // Once for each face: one of many sheets in one place is in as many pairs.
+  std::vector<std::uint8_t> is_own(static_cast<std::size_t>(result.face_count()), 0);
+  tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t i) {
+    is_own[faces[i]] = is_crossed_by_itself(places[i]) ? 1 : 0;
+  });
+  crossed.clear();
   for (const auto& pair : pairs) {
-    for (const Index f : pair) places.try_emplace(f, place_of(result, f));
-  }
-  std::vector<Place> all;
-  for (const auto& [face, place] : places) all.push_back(place);
-  look_around(all);
-  std::set<Index> faces;
-  for (const auto& pair : pairs) {
-    if (std::ranges::none_of(pair, [&](Index f) { return is_crossed_by_itself(places.at(f)); })) {
-      faces.insert(pair.begin(), pair.end());
+    if (std::ranges::none_of(pair, [&](Index f) { return is_own[f] != 0; })) {
+      crossed.insert(pair.begin(), pair.end());
     }
   }
-  return {faces.begin(), faces.end()};
+  return {crossed.begin(), crossed.end()};
 }
 
 std::vector<Vec3> CrossingPlaces::of(const PolyMesh& result) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -23,6 +24,8 @@ class CrossingPlaces {
   std::vector<Index> faces_of(const PolyMesh& result);
   /// The middles of these faces, relative to the mesh's origin.
   std::vector<Vec3> of(const PolyMesh& result);
+  /// Pairs of faces of the last result that cross, whatever the input does.
+  [[nodiscard]] std::size_t pair_count() const { return pair_count_; }
 
  private:
   /// A ball around a face of a result, relative to the input's origin.
@@ -45,6 +48,7 @@ class CrossingPlaces {
   [[nodiscard]] bool is_crossed_by_itself(const Place& place) const;
 
   const TriMesh& mesh_;
+  std::size_t pair_count_ = 0;
   std::vector<Look> looks_;
   std::vector<std::uint8_t> is_seen_;           ///< [F] of the input: whether it crosses is known
   std::vector<std::array<Index, 3>> crossing_;  ///< those seen that cross, and what they cross

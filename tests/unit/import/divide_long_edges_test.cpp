@@ -138,5 +138,13 @@ TEST(DivideLongEdges, StopsBeforeThereAreTooManyVertices) {
   EXPECT_LT(longest_edge(mesh), 0.51 * before);  // the long ones came first
 }
 
+/// A spike of needles: pieces of them would be needles, too.
+TEST(DivideLongEdges, LeavesNeedlesAsTheyAre) {
+  PolyMesh spike = fan_cone(64);
+  spike.positions[0].z() = 1e4;
+  const ImportResult result = divided(spike, 5);
+  EXPECT_EQ(count(result.report, "division.inserted_vertices"), 0);
+}
+
 }  // namespace
 }  // namespace strake
