@@ -169,7 +169,7 @@ void report_noise(const TriMesh& mesh, Report& report) {
 }
 
 void divide_long_edges(TriMesh& mesh, const ImportOptions& options, Report& report) {
-  /// What it may cost, in vertices: models are refined in vain where faces are needles.
+  /// What it may cost, in vertices.
   constexpr Index kMostVertices = 8000;
   const double longest = options.longest_edge.resolve(mesh.diagonal);
   report.set("division.inserted_vertices",

@@ -334,13 +334,6 @@ double crossing_share(const Session& session, CrossingPlaces& crossing) {
   return static_cast<double>(crossing.of(faces).size()) / faces.face_count();
 }
 
-/// Whether sheets of the result last looked at lie on top of each other: all that is measured takes
-/// many times as long there, and says little.
-bool is_stacked(const Session& session, const CrossingPlaces& crossing) {
-  return static_cast<std::int64_t>(crossing.pair_count()) >
-         count_of(session, "quads", Counted::faces);
-}
-
 /// Traces, and closer where so many faces cross that lines are too coarse for the shape. Then makes
 /// errors even, unless that brings crossing faces back.
 /// \return whether errors were looked at
@@ -355,7 +348,7 @@ bool trace_freely(Session& session, const GoalStages& stages, std::int64_t feedb
     trace_and_mesh(session, stages);
     share = crossing_share(session, crossing);
   }
-  if (feedback_rounds == 0 || is_stacked(session, crossing)) return false;
+  if (feedback_rounds == 0 || crossing.is_stacked()) return false;
   for (std::int64_t round = 0; round < feedback_rounds; ++round) {
     const Session before = session;
     even_out(session, stages);

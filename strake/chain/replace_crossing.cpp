@@ -27,8 +27,7 @@ std::vector<Vec3> replace_crossing(Session& session, const GoalStages& stages, c
   if (places.empty() || only_quads(stages)) return places;
   const double share = static_cast<double>(places.size()) / faces.face_count();
   if (places.size() > kMostReplaced || share > kMostReplacedShare) return places;
-  // What comes in would cross others again: sheets lie in each other, in the input, too.
-  if (crossing.pair_count() > static_cast<std::size_t>(faces.face_count())) return places;
+  if (crossing.is_stacked()) return places;
   Session tried = session;
   try {
     tried.run(stages.uncross);

@@ -63,7 +63,7 @@ CrossingPlaces::Place CrossingPlaces::place_of(const PolyMesh& result, Index fac
 
 std::vector<Index> CrossingPlaces::faces_of(const PolyMesh& result) {
   const auto pairs = find_crossing_faces(result.positions, triangulate_faces(result));
-  pair_count_ = pairs.size();
+  is_stacked_ = pairs.size() > static_cast<std::size_t>(result.face_count());
   std::set<Index> crossed;
   for (const auto& pair : pairs) crossed.insert(pair.begin(), pair.end());
   const std::vector<Index> faces(crossed.begin(), crossed.end());

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -24,8 +23,10 @@ class CrossingPlaces {
   std::vector<Index> faces_of(const PolyMesh& result);
   /// The middles of these faces, relative to the mesh's origin.
   std::vector<Vec3> of(const PolyMesh& result);
-  /// Pairs of faces of the last result that cross, whatever the input does.
-  [[nodiscard]] std::size_t pair_count() const { return pair_count_; }
+  /// Whether the last result has more pairs of faces that cross, whatever the input does, than
+  /// faces: sheets on top of each other, where all that is measured takes many times as long, says
+  /// little, and what is put there crosses again.
+  [[nodiscard]] bool is_stacked() const { return is_stacked_; }
 
  private:
   /// A ball around a face of a result, relative to the input's origin.
@@ -48,7 +49,7 @@ class CrossingPlaces {
   [[nodiscard]] bool is_crossed_by_itself(const Place& place) const;
 
   const TriMesh& mesh_;
-  std::size_t pair_count_ = 0;
+  bool is_stacked_ = false;
   std::vector<Look> looks_;
   std::vector<std::uint8_t> is_seen_;           ///< [F] of the input: whether it crosses is known
   std::vector<std::array<Index, 3>> crossing_;  ///< those seen that cross, and what they cross

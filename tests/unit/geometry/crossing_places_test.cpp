@@ -57,6 +57,19 @@ TEST(CrossingPlaces, AreNotWhereTheInputCrossesItself) {
   EXPECT_EQ(crossing.of(two_squares(kHere, -0.3)).size(), 2u);
 }
 
+TEST(CrossingPlaces, TellSheetsOnTopOfEachOtherFromFew) {
+  const TriMesh surface = triangles_of(two_squares(Vec3::Zero(), 0.1));
+  CrossingPlaces crossing(surface);
+  PolyMesh copies = two_squares(Vec3::Zero(), -0.3);
+  crossing.of(copies);
+  EXPECT_FALSE(crossing.is_stacked());  // one pair of two faces
+  for (int i = 0; i < 3; ++i) copies = support::together(copies, two_squares(Vec3::Zero(), -0.3));
+  crossing.of(copies);
+  EXPECT_TRUE(crossing.is_stacked());  // each upright one passes through four
+  crossing.of(two_squares(Vec3::Zero(), 0.1));
+  EXPECT_FALSE(crossing.is_stacked());
+}
+
 /// An upright square of half this size through the plane z = 0.
 void add_upright(PolyMesh& mesh, double x, double y, double half) {
   add_square(mesh, Vec3(x - half, y, -half), Vec3(x + half, y, -half), Vec3(x + half, y, half),
