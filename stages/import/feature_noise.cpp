@@ -280,6 +280,14 @@ Index drop_lumps(TriMesh& mesh) {
 
 }  // namespace
 
+Index drop_shorter(TriMesh& mesh, double length) {
+  return drop_pieces(mesh, [&](const std::vector<Index>& piece) {
+    double sum = 0;
+    for (const Index h : piece) sum += edge_vector(mesh, h).norm();
+    return sum < length;
+  });
+}
+
 Index drop_noise(TriMesh& mesh, const std::vector<float>& roughness) {
   Index dropped = 0;
   while (const Index more = NoisyLines(mesh, roughness).drop()) dropped += more;

@@ -27,4 +27,8 @@ namespace strake::import {
 /// \return edges whose flag was taken
 Index drop_noise(TriMesh& mesh, const std::vector<float>& roughness);
 
+/// Takes the flags off connected pieces with a total length below `length`, model units.
+/// \return edges whose flag was taken
+Index drop_shorter(TriMesh& mesh, double length);
+
 }  // namespace strake::import

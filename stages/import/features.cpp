@@ -3,7 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "common/geometry/angles.h"
@@ -13,6 +15,7 @@
 #include "stages/import/feature_graph.h"
 #include "stages/import/feature_noise.h"
 #include "stages/import/listed_edges.h"
+#include "stages/import/shallow_creases.h"
 
 namespace strake::import {
 namespace {
@@ -20,8 +23,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 
 /// Angle by which the surface is bent at each half-edge's edge; 0 on the boundary.
-std::vector<float> bend_angles(const TriMesh& mesh) {
-  const std::vector<Vec3> normals = robust_face_normals(mesh);
+std::vector<float> bend_angles(const TriMesh& mesh, const std::vector<Vec3>& normals) {
   std::vector<float> bend(mesh.halfedge_count(), 0);
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
     const Index twin = mesh.twin[h];
@@ -50,6 +52,12 @@ class Roughness {
     const auto middle = bends_.begin() + static_cast<std::ptrdiff_t>(bends_.size() / 2);
     std::nth_element(bends_.begin(), middle, bends_.end());
     return std::max(*middle - kSmooth, 0.0);
+  }
+
+  double quarter() {
+    const auto at = bends_.begin() + static_cast<std::ptrdiff_t>(bends_.size() / 4);
+    std::nth_element(bends_.begin(), at, bends_.end());
+    return bends_.empty() ? 0 : *at;
   }
 
  private:
@@ -129,23 +137,44 @@ class Bridges {
   std::vector<Index> degree_;
 };
 
+/// Flags those of some edges that are connected to lines of some length among themselves.
+/// \return their number
+Index add_long_enough(TriMesh& mesh, const std::vector<Index>& edges) {
+  constexpr double kShortest = 0.05;  // share of the diagonal
+  const std::vector<std::uint8_t> others =
+      std::exchange(mesh.is_feature, std::vector<std::uint8_t>(mesh.halfedge_count(), 0));
+  for (const Index h : edges) set_feature(mesh, h, true);
+  const Index dropped = drop_shorter(mesh, kShortest * mesh.diagonal);
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) mesh.is_feature[h] |= others[h];
+  return static_cast<Index>(edges.size()) - dropped;
+}
+
 void find_creases(TriMesh& mesh, double angle_deg, FeatureCounts& counts) {
+  constexpr double kShallow = 0.5;
   constexpr double kWeak = 0.6;
+  constexpr double kSmoothGround = 0.05;
   constexpr double kRoughness = 3;
   const double angle = angle_deg * kDegree;
-  const std::vector<float> bend = bend_angles(mesh);
+  const std::vector<Vec3> normals = robust_face_normals(mesh);
+  const std::vector<float> bend = bend_angles(mesh, normals);
   Roughness roughness(mesh, bend, angle);
   std::vector<float> excess(bend.size(), 0);  // bend beyond the roughness, where it matters
   std::vector<float> rough_at(bend.size(), 0);
+  std::vector<Index> shallow;  // bent less than creases, on smooth ground
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
-    if (mesh.twin[h] == kNone || h > mesh.twin[h] || bend[h] <= kWeak * angle) continue;
+    if (mesh.twin[h] == kNone || h > mesh.twin[h] || bend[h] <= kShallow * angle) continue;
     const double rough = roughness(h);
     rough_at[h] = rough_at[mesh.twin[h]] = static_cast<float>(rough);
     excess[h] = excess[mesh.twin[h]] = static_cast<float>(bend[h] - rough);
-    if (bend[h] - kRoughness * rough <= angle) continue;
-    set_feature(mesh, h, true);
-    ++counts.strong_edges;
+    if (bend[h] - kRoughness * rough > angle) {
+      set_feature(mesh, h, true);
+      ++counts.strong_edges;
+    } else if (rough == 0 && roughness.quarter() <= kSmoothGround * bend[h]) {
+      shallow.push_back(h);
+    }
   }
+  std::erase_if(shallow, [&](Index h) { return !stands_alone(mesh, normals, h, bend[h]); });
+  counts.shallow_edges = add_long_enough(mesh, shallow);
   counts.bridging_edges = Bridges(mesh, excess, kWeak * angle).run();
   counts.dropped_edges = drop_noise(mesh, rough_at);
 }

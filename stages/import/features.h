@@ -19,6 +19,7 @@ struct FeatureRules {
 
 struct FeatureCounts {
   Index strong_edges = 0;    ///< bent by more than the angle
+  Index shallow_edges = 0;   ///< bent by more than half the angle, standing alone
   Index bridging_edges = 0;  ///< bent less, added between strong ones
   Index dropped_edges = 0;   ///< of what was noise
   Index ridge_edges = 0;     ///< bent less than creases, but standing out by more than the height
@@ -34,7 +35,9 @@ struct FeatureCounts {
 /// An edge is a crease where its faces' normals differ by more than `angle_deg`, and by more than
 /// that by thrice the roughness there: what the median bend of the edges around it (those bent by
 /// at most `angle_deg`) exceeds 5 degrees by. So noise and detail at the limit of the sampling are
-/// no creases, and on smooth faces the angle decides alone. Creases that fade out are continued
+/// no creases, and on smooth faces the angle decides alone. Where there is no roughness, edges bent
+/// by more than half of `angle_deg` are creases, too, if they stand alone (`stands_alone`). Creases
+/// that fade out are continued
 /// along edges bent by more than 0.6 of `angle_deg` (and the roughness), but only as far as another
 /// crease or the boundary.
 ///

@@ -146,6 +146,7 @@ void report_census(const TriMesh& mesh, const Census& counts, Report& report) {
 
 void report_features(const import::FeatureCounts& counts, Report& report) {
   report.set("features.strong_edges", counts.strong_edges);
+  report.set("features.shallow_edges", counts.shallow_edges);
   report.set("features.bridging_edges", counts.bridging_edges);
   report.set("features.dropped_edges", counts.dropped_edges);
   report.set("features.ridge_edges", counts.ridge_edges);

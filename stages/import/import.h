@@ -14,7 +14,8 @@
 namespace strake {
 
 struct ImportOptions {
-  double feature_angle_deg = 40;  ///< edges bent by more than this are feature edges; 180: none
+  double feature_angle_deg = 40;  ///< edges bent by more are features, from half of it on alone;
+                                  ///< 180: none
   /// Height of ridges above which edges are feature edges whatever their angle; default: none
   std::optional<Length> feature_height = std::nullopt;
   std::string attribute_features = "seams";  ///< borders that are features: labels, seams, none

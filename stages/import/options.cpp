@@ -7,7 +7,9 @@ OptionList ImportOptions::declare() {
       {.name = "feature-angle",
        .target = &feature_angle_deg,
        .unit = "deg",
-       .help = "Edges bent by more than this are kept as feature edges; 180 keeps none.",
+       .help =
+           "Edges bent by more than this are kept as feature edges, and those bent by more than "
+           "half of it that stand alone, as those of chamfers do; 180 keeps none.",
        .min = 0,
        .max = 180},
       {.name = "feature-height",

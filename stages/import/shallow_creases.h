@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "common/core/tri_mesh.h"
+
+namespace strake::import {
+
+/// Whether an edge that is bent by `bend` stands alone, as those of a chamfer or of a roof do:
+/// across it the surface goes on without another bend of that kind. On a coarsely meshed round each
+/// edge has such neighbours.
+///
+/// Straight ways across both faces, at right angles to the middle of the edge and up to the next
+/// barrier, tell. The edge does not stand alone where the surface turns about it by more than half
+/// of `bend` again within 5 % of the diagonal on one side, or where on either side, at any
+/// distance, one edge does. \param h        an inner half-edge \param bend     radians \param
+/// normals  [F] unit
+bool stands_alone(const TriMesh& mesh, const std::vector<Vec3>& normals, Index h, double bend);
+
+}  // namespace strake::import
