@@ -185,10 +185,7 @@ const std::vector<Index>& BlockWalk::around(Index face, const Vec3& point, doubl
     for (Index w = blocks_.first_way_[block]; w < blocks_.first_way_[block + 1]; ++w) {
       const auto [other, h] = blocks_.ways_[w];
       if (stamp_[other] == current_) continue;
-      const FaceBlocks::Ball& ball = blocks_.balls_[other];
-      const Vec3 centre(ball.centre[0], ball.centre[1], ball.centre[2]);
-      const double reach = distance + ball.radius;
-      if ((centre - point).squaredNorm() > reach * reach) continue;
+      if (!is_within(other, point, distance)) continue;
       if (h != kNone &&
           (way_to_segment(point, mesh.positions[mesh.from(h)], mesh.positions[mesh.to(h)])
                .squaredNorm() > distance * distance)) {

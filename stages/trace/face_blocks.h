@@ -87,6 +87,13 @@ class BlockWalk {
   /// \return valid until the next walk
   const std::vector<Index>& around(Index face, const Vec3& point, double distance);
 
+  /// Whether a block may have something nearer to a point than `distance`.
+  [[nodiscard]] bool is_within(Index block, const Vec3& point, double distance) const {
+    const auto& [centre, radius] = blocks_.balls_[block];
+    const double reach = distance + radius;
+    return (Vec3(centre[0], centre[1], centre[2]) - point).squaredNorm() <= reach * reach;
+  }
+
   /// Whether the last walk came to the block of a face.
   [[nodiscard]] bool reached(Index face) const {
     return stamp_[blocks_.block_of(face)] == current_;

@@ -93,16 +93,17 @@ ProximityHit ProximityProbe::query(const ProximityQuery& query) {
   ++query_count_;
   ProximityHit hit;
   double best = query.distance * query.distance;
+  hit.distance = query.distance;  // shrinks, and what is farther is not looked at any more
   const auto consider = [&](const Vec3& a, const Vec3& b, Index line) {
     const double d = squared_distance(query.point, a, b);
     if (!(d < best)) return;
     best = d;
-    hit.conflict = true;
-    hit.line = line;
+    hit = {true, line, std::sqrt(d)};
   };
   for (const Index block : walk_.around(query.face, query.point, query.distance)) {
+    if (!walk_.is_within(block, query.point, hit.distance)) continue;
     const auto for_near = [&](const SegmentLists& segments, const auto& use) {
-      segments.for_near(block, query.point, query.distance, use);
+      segments.for_near(block, query.point, hit.distance, use);
     };
     for_near(segments_, [&](const LineSegment& own, Index s) {
       const double way = std::abs(arcs_[s] - query.own_arc) - 0.5 * (own.b - own.a).norm();
@@ -112,11 +113,10 @@ ProximityHit ProximityProbe::query(const ProximityQuery& query) {
       if (query.is_alike(segment)) consider(segment.a, segment.b, segment.line);
     });
     if (query.ignore_barriers) continue;
-    index_.for_barriers(block, query.point, query.distance, [&](const auto& barrier) {
+    index_.for_barriers(block, query.point, hit.distance, [&](const auto& barrier) {
       if (query.is_alike(barrier.direction)) consider(barrier.a, barrier.b, kNone);
     });
   }
-  hit.distance = std::sqrt(best);
   return hit;
 }
 
@@ -130,13 +130,14 @@ std::pair<double, double> ProximityProbe::distances_beside(const ProximityQuery&
     side = std::min(side, way.norm());
   };
   for (const Index block : walk_.around(query.face, query.point, query.distance)) {
-    index_.segments().for_near(block, query.point, query.distance,
-                               [&](const LineSegment& segment, Index) {
-                                 if (query.is_alike(segment.direction)) {
-                                   consider(segment.a, segment.b);
-                                 }
-                               });
-    index_.for_barriers(block, query.point, query.distance, [&](const auto& barrier) {
+    const double reach = std::max(nearest.first, nearest.second);
+    if (!walk_.is_within(block, query.point, reach)) continue;
+    index_.segments().for_near(block, query.point, reach, [&](const LineSegment& segment, Index) {
+      if (query.is_alike(segment.direction)) {
+        consider(segment.a, segment.b);
+      }
+    });
+    index_.for_barriers(block, query.point, reach, [&](const auto& barrier) {
       if (query.is_alike(barrier.direction)) consider(barrier.a, barrier.b);
     });
   }
