@@ -117,4 +117,10 @@ std::vector<double> wedge_areas(const TriMesh& mesh) {
   return areas;
 }
 
+double surface_area(const TriMesh& mesh) {
+  double sum = 0;
+  for (const double area : wedge_areas(mesh)) sum += area;
+  return sum;
+}
+
 }  // namespace strake

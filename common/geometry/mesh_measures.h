@@ -39,6 +39,9 @@ std::vector<Vec3> wedge_normals(const TriMesh& mesh, const FaceNormals& face_nor
 /// [W] a third of the area of each wedge's faces.
 std::vector<double> wedge_areas(const TriMesh& mesh);
 
+/// Of all faces.
+double surface_area(const TriMesh& mesh);
+
 /// Angle at corner h of its face, radians in [0, pi].
 double corner_angle(const TriMesh& mesh, Index h);
 

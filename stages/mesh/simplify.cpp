@@ -14,6 +14,8 @@ namespace {
 /// Feature and boundary edges are divided where their course leaves the straight edge by more than
 /// this share of the local size.
 constexpr double kLargestSagitta = 0.06;
+/// Likewise of an edge on no barrier, as a share of the straight way: arcs of 130 degrees.
+constexpr double kMostBent = 0.32;
 /// A face may not turn by more than this when one of its nodes moves.
 constexpr double kLeastTurnCosine = 0.3;
 /// Corners of the feature graph are only merged below this share of the wanted edge length.
@@ -193,11 +195,15 @@ void contract_short_edges(PolygonGraph& graph, const LocalSize& size, const Simp
   }
 }
 
-void divide_bent_barriers(PolygonGraph& graph, const LocalSize& size, SimplifyCounts& counts) {
+/// Barriers stay as near to their course as cells are large; other lines do not cut a bore or a
+/// tip off.
+void divide_bent_edges(PolygonGraph& graph, const LocalSize& size, SimplifyCounts& counts) {
   const DartGraph& g = graph.graph();
   for (Index d = 0; d < g.dart_count(); d += 2) {  // new edges come last and are looked at too
-    if (!g.is_alive(d) || !graph.is_barrier(d) || g.from(d) == g.to(d)) continue;
-    const double largest = kLargestSagitta * size_at_edge(graph, size, d);
+    if (!g.is_alive(d) || g.from(d) == g.to(d)) continue;
+    const double chord = (graph.position(g.to(d)) - graph.position(g.from(d))).norm();
+    const double largest =
+        graph.is_barrier(d) ? kLargestSagitta * size_at_edge(graph, size, d) : kMostBent * chord;
     const PolygonGraph::Bend bend = graph.bend(d);
     if (!(bend.distance > largest)) continue;
     graph.split(d, bend.share);
@@ -303,7 +309,7 @@ SimplifyCounts simplify(PolygonGraph& graph, const LocalSize& size, const Simpli
     if (g.is_alive(d) && try_dissolve(graph, d)) ++counts.dissolved_nodes;
   }
   separate_edges(graph, counts);
-  divide_bent_barriers(graph, size, counts);
+  divide_bent_edges(graph, size, counts);
   return counts;
 }
 

@@ -19,6 +19,7 @@
 #include "strake/chain/goal_warnings.h"
 #include "strake/chain/line_aim.h"
 #include "strake/chain/line_steps.h"
+#include "strake/chain/lost_details.h"
 #include "strake/chain/replace_crossing.h"
 #include "strake/chain/too_coarse.h"
 #include "strake/chain/working_mesh.h"
@@ -64,6 +65,8 @@ constexpr int kPatience = 5;
 constexpr int kPatienceWithinTolerance = 2;
 /// Share of the distances of lines around faces that cross.
 constexpr double kCloserWhereCrossing = 0.7;
+/// Share of those around details that lines miss.
+constexpr double kCloserAtDetails = 0.5;
 /// Corners of features for each vertex or face wanted, from which on they may be too many, and how
 /// far they may come to lie off features then.
 constexpr double kManyCorners = 0.25;
@@ -305,13 +308,15 @@ void trace_to_count(Session& session, const GoalStages& stages, const LineAim& a
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
   const Attempt first = fit_to_count(session, stages, aim, crossing);
   const double first_miss = aim.miss(count_of(first.done, result_port(first.done), aim.counted));
-  const auto again = [&](Session next, const std::vector<Vec3>& places) {
-    want_relatively_closer(next, places, kCloserWhereCrossing);
-    search_scale(next, stages, aim);
-    Attempt attempt = fit_to_count(next, stages, aim, crossing);
-    const double miss = aim.miss(count_of(attempt.done, result_port(attempt.done), aim.counted));
-    attempt.misses_goal = miss > std::max(first_miss, kCountTolerance);
-    return attempt;
+  const auto closer_by = [&](double factor) {
+    return [&, factor](Session next, const std::vector<Vec3>& places) {
+      want_relatively_closer(next, places, factor);
+      search_scale(next, stages, aim);
+      Attempt attempt = fit_to_count(next, stages, aim, crossing);
+      const double miss = aim.miss(count_of(attempt.done, result_port(attempt.done), aim.counted));
+      attempt.misses_goal = miss > std::max(first_miss, kCountTolerance);
+      return attempt;
+    };
   };
   const auto keep = [&](Attempt& attempt) {
     attempt.meshed.keep(stages.trace);
@@ -320,7 +325,8 @@ void trace_to_count(Session& session, const GoalStages& stages, const LineAim& a
     attempt.done.keep(stages.fit);
   };
   const Index faces = first.done.get<QuadMesh>("fitted").mesh.face_count();
-  session = part_faces(first, faces, kPatience, again, keep).done;
+  const Attempt parted = part_faces(first, faces, kPatience, closer_by(kCloserWhereCrossing), keep);
+  session = regain_details(parted, closer_by(kCloserAtDetails), keep).done;
 }
 
 /// Whether there are fewer vertices than the input has, so that lines may be too coarse for it.

@@ -62,12 +62,6 @@ struct Faults {
   double odd = 0;       ///< share of the faces that are no quads
 };
 
-double area(const TriMesh& mesh) {
-  double sum = 0;
-  for (const double a : wedge_areas(mesh)) sum += a;
-  return sum;
-}
-
 /// The count of the quads at a port, as a share of what is wanted.
 double reached(const Session& session, const char* port, const Goal& goal) {
   return static_cast<double>(count_of(session, port, goal.counted)) /
@@ -85,7 +79,7 @@ Faults faults_of(const Session& session, const Goal& goal, double samples = kSam
   const char* port = result_port(session);
   const auto& result = session.get<QuadMesh>(port);
   const double share = reached(session, port, goal);
-  const double cell = std::sqrt(area(mesh) / result.mesh.vertex_count() * share);
+  const double cell = std::sqrt(surface_area(mesh) / result.mesh.vertex_count() * share);
   const ErrorMap map =
       measure_cells(ComparedSurfaces(mesh, result), sampling_of(result.mesh, samples));
   const auto crossing = static_cast<double>(CrossingPlaces(mesh).of(result.mesh).size());

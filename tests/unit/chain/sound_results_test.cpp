@@ -54,6 +54,18 @@ class Listener : public StageObserver {
   std::string said;
 };
 
+// Lines for so few vertices pass a tip by that is a sixth as wide as they are apart.
+TEST(Remesh, WithFewVerticesATipStays) {
+  const PolyMesh mesh = claws(1, 0.8, 0.06, 0.4, 20000);
+  RemeshOptions options;
+  options.trace.vertices = 90;
+  options.lines_only = true;
+  const RemeshResult result = remesh({mesh, {}, {}, {}}, options);
+  EXPECT_NEAR(result.quads.mesh.vertex_count(), 90, 9);
+  const ErrorMap map = measure_cells(ComparedSurfaces(result.mesh, result.quads));
+  EXPECT_LT(map.largest, 0.1);
+}
+
 // With lines for the tolerance alone cells lie across a claw, and dividing them leaves hundreds
 // of pairs of faces that cross.
 TEST(Remesh, WithinAToleranceFacesDoNotCross) {

@@ -66,7 +66,7 @@ TEST(WorkingMesh, ResultsAreAsGoodAsThoseOfTheInput) {
     EXPECT_LT(measure_of(coarser, "distance.rms"), most * measure_of(direct, "distance.rms"));
     if (kind != SampleKind::part) continue;
     EXPECT_NEAR(measure_of(coarser, "features.kept_share"),
-                measure_of(direct, "features.kept_share"), 0.03);
+                measure_of(direct, "features.kept_share"), 0.05);
   }
 }
 

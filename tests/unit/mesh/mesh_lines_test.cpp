@@ -144,6 +144,31 @@ TEST_P(Subsets, OfTracedLinesKeepTheTopology) {
   }
 }
 
+/// Between two rulings a ring is half a circle: straight edges there would cut through the bore.
+TEST(MeshLines, RingsStayAroundABore) {
+  SampleOptions sample;
+  sample.faces = 4000;
+  const TriMesh bore = support::plain_tri_mesh(make_sample(SampleKind::open_cylinder, sample));
+  LineSet lines;
+  for (const double height : {-0.4001, 0.0001, 0.4001}) {
+    add_level_lines(
+        bore, [&](const Vec3& p) { return p.z() - height; }, LineFamily::maximum, lines);
+  }
+  add_level_lines(
+      bore, [](const Vec3& p) { return p.y() + 1e-4; }, LineFamily::minimum, lines);
+  set_spacing(bore, 0.8, lines);
+  const QuadMesh result = mesh_of(bore, lines);
+  expect_same_topology(bore, result);
+  for (Index f = 0; f < result.mesh.face_count(); ++f) {
+    const std::span<const Index> face = result.mesh.face(f);
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      const Vec3 middle =
+          (result.mesh.positions[face[i]] + result.mesh.positions[face[(i + 1) % face.size()]]) / 2;
+      EXPECT_GT(middle.head<2>().norm(), 0.3 * kCylinderRadius) << "face " << f;
+    }
+  }
+}
+
 TEST(MeshLines, KeepsOneFamilyAlone) {
   SampleOptions sample;
   sample.faces = 4000;
