@@ -9,6 +9,7 @@
 
 #include "common/geometry/topology/vertex_ring.h"
 #include "stages/import/feature_graph.h"
+#include "stages/import/noise.h"
 
 namespace strake::import {
 namespace {
@@ -211,14 +212,22 @@ Index drop_short_pieces(TriMesh& mesh) {
   });
 }
 
-/// Edges of a piece, at most, that may be a lump of noise.
+/// Edges of a piece, at most, that may be a lump of noise, where the ground is not rough.
 constexpr std::size_t kLargestLump = 40;
 /// Share of the bends in a lump that is left of their sum, at most, and of those around it.
-constexpr double kMostLeft = 0.3;
-constexpr double kMostLeftAround = 0.35;
+struct MostLeft {
+  double own = 0.3;
+  double around = 0.35;
+};
+/// The same of a mesh that is rough as a whole: of a few edges that noise bent at random more is
+/// left than of many.
+constexpr MostLeft kMostLeftOfNoise = {0.9, 0.5};
 /// Mean bend around it, at least, and share of the edges there that are bent at all: on a designed
 /// part, where walls may be bent both ways, some are in flats.
 constexpr double kLeastAround = 1 * kDegree;
+/// Mean bend around larger pieces, at least: 17 to 29 degrees around those of a noisy scan, and at
+/// most 14.5, where bends cancel, around those of any other of 306 models.
+constexpr double kLeastAroundLarge = 15 * kDegree;
 constexpr double kFlat = 0.3 * kDegree;
 constexpr double kMostFlat = 0.2;
 
@@ -255,13 +264,16 @@ struct BendSum {
 ///
 /// Single vertices that noise has moved far have sharp edges around them however fine the rest is.
 /// A step or an embossed letter is bent both ways as well, but stands on a surface that is not.
+/// Where points lie closer along one direction than noise is high, as along the lines of a scanner,
+/// such edges join to large webs; on rough ground pieces of any size go.
 Index drop_lumps(TriMesh& mesh) {
+  const MostLeft most_left = measure_noise(mesh).is_much() ? kMostLeftOfNoise : MostLeft{};
   return drop_pieces(mesh, [&](const std::vector<Index>& piece) {
-    if (piece.size() > kLargestLump) return false;
     BendSum own;
+    for (const Index h : piece) own.add(mesh, h);
+    if (!own.cancels(most_left.own)) return false;
     std::set<Index> around;
     for (const Index h : piece) {
-      own.add(mesh, h);
       for (const Index v : {mesh.from(h), mesh.to(h)}) {
         for_each_outgoing(mesh, v, [&](Index out) {
           for_each_outgoing(mesh, mesh.to(out), [&](Index e) {
@@ -270,10 +282,10 @@ Index drop_lumps(TriMesh& mesh) {
         });
       }
     }
-    if (!own.cancels(kMostLeft)) return false;
     BendSum ground;
     for (const Index e : around) ground.add(mesh, e);
-    return ground.size > kLeastAround * ground.length && ground.cancels(kMostLeftAround) &&
+    const double least = piece.size() > kLargestLump ? kLeastAroundLarge : kLeastAround;
+    return ground.size > least * ground.length && ground.cancels(most_left.around) &&
            ground.flat < kMostFlat * ground.length;
   });
 }

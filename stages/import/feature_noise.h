@@ -22,7 +22,8 @@ namespace strake::import {
 /// length below that are dropped, except for simple closed lines and what reaches the boundary. At
 /// last pieces of at most 40 edges go whose bends cancel to 0.3 of their sizes, where those of the
 /// edges around them do so to 0.35, are a degree or more in the mean, and few are flat: lumps of
-/// noise.
+/// noise. Larger ones go where the mean is 15 degrees or more; and where the mesh is rough as a
+/// whole (`Noise::is_much`) 0.9 and 0.5 are enough.
 /// \param roughness  [3F] of feature edges, as `find_features` has it, radians
 /// \return edges whose flag was taken
 Index drop_noise(TriMesh& mesh, const std::vector<float>& roughness);

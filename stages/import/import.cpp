@@ -162,11 +162,11 @@ void report_noise(const TriMesh& mesh, Report& report) {
   report.set("noise.median_bend_deg", noise.median_bend_deg);
   report.set("noise.to_and_fro", noise.to_and_fro);
   if (!noise.is_much()) return;
-  report.warn(fmt::format(
-      "the surface is rough: half of it is bent by more than {:.0f} degrees from face to "
-      "face, to and fro, so directions of curvature mean little; --denoise 10 takes "
-      "noise of a scan off",
-      noise.median_bend_deg));
+  report.warn(
+      fmt::format("the surface is rough: half of its edges are bent by more than {:.0f} degrees, "
+                  "to and fro, so directions of curvature mean little; --denoise 10 takes "
+                  "noise of a scan off",
+                  noise.median_bend_deg));
 }
 
 void divide_long_edges(TriMesh& mesh, const ImportOptions& options, Report& report) {

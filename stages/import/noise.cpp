@@ -29,8 +29,7 @@ struct Bends {
     }
   }
 
-  /// Calls use(half-edge, bend in degrees, area of both faces, vector along it) for each inner
-  /// edge.
+  /// Calls use(half-edge, bend in degrees, length) for each inner edge.
   template <class Use>
   void for_each(const Use& use) const {
     for (Index h = 0; h < mesh_.halfedge_count(); ++h) {
@@ -40,11 +39,10 @@ struct Bends {
       const Vec3& right = area_normals_[TriMesh::face_of(twin)];
       const Vec3 along = mesh_.positions[mesh_.to(h)] - mesh_.positions[mesh_.from(h)];
       const double length = along.norm();
-      const double area = (left.norm() + right.norm()) / 2;
       if (!(length > 0) || !(left.norm() > 0) || !(right.norm() > 0)) continue;
       const double bend = std::atan2(left.cross(right).dot(along) / length, left.dot(right)) * 180 /
                           std::numbers::pi;
-      use(h, bend, area, length);
+      use(h, bend, length);
     }
   }
 
@@ -54,15 +52,15 @@ struct Bends {
 };
 
 double median_bend(const Bends& bends) {
-  std::vector<double> area(180 * kBinsPerDegree + 1, 0);
+  std::vector<double> lengths(180 * kBinsPerDegree + 1, 0);
   double total = 0;
-  bends.for_each([&](Index, double bend, double of_faces, double) {
-    area[static_cast<std::size_t>(std::abs(bend) * kBinsPerDegree)] += of_faces;
-    total += of_faces;
+  bends.for_each([&](Index, double bend, double length) {
+    lengths[static_cast<std::size_t>(std::abs(bend) * kBinsPerDegree)] += length;
+    total += length;
   });
   double below = 0;
-  for (std::size_t bin = 0; bin < area.size(); ++bin) {
-    below += area[bin];
+  for (std::size_t bin = 0; bin < lengths.size(); ++bin) {
+    below += lengths[bin];
     if (2 * below >= total) return static_cast<double>(bin) / kBinsPerDegree;
   }
   return 0;
@@ -73,14 +71,14 @@ double to_and_fro(const TriMesh& mesh, const Bends& bends) {
   std::vector<double> sum(vertices, 0);
   double all = 0;
   std::vector<double> size(vertices, 0);
-  bends.for_each([&](Index h, double bend, double, double length) {
+  bends.for_each([&](Index h, double bend, double length) {
     for (const Index v : {mesh.from(h), mesh.to(h)}) {
       sum[v] += bend * length;
       size[v] += std::abs(bend) * length;
     }
   });
   std::vector<double> around(vertices, 0);
-  bends.for_each([&](Index h, double, double, double) {
+  bends.for_each([&](Index h, double, double) {
     const Index a = mesh.from(h);
     const Index b = mesh.to(h);
     around[a] += sum[b];

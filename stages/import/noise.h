@@ -8,7 +8,7 @@ namespace strake::import {
 
 /// How a surface bends from face to face, by which measurement noise shows.
 struct Noise {
-  double median_bend_deg = 0;  ///< of edges, weighted by the area of their faces
+  double median_bend_deg = 0;  ///< of edges, weighted by their length
   /// 0 where bends around a vertex and its neighbours are all to the same side, 1 where they
   /// cancel.
   double to_and_fro = 0;

@@ -192,6 +192,36 @@ TEST(Features, NoiseIsNoCrease) {
   EXPECT_LT(feature_edges(result.mesh), 80 * 80 * 3 / 100);
 }
 
+/// Points on the lines of a scanner, fifteen times as close along a line as from line to line, with
+/// noise as high as they are close, on the share `noisy` of the unit square.
+PolyMesh scan_lines(double noisy) {
+  constexpr int kAlong = 300;
+  PolyMesh mesh = shapes::grid(kAlong, 20, [](double, double) { return 0.0; });
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0, 0.4 / kAlong);
+  for (Vec3& p : mesh.positions) {
+    if (p.x() <= noisy) p.z() += noise(random);
+  }
+  return mesh;
+}
+
+/// Noise bends most of the long edges by more than 40 degrees there, which join to webs.
+TEST(Features, NoiseOnScanLinesIsNoCrease) {
+  for (const double noisy : {1.0, 0.3}) {
+    const ImportResult result = imported(scan_lines(noisy));
+    EXPECT_LT(feature_edges(result.mesh), noisy * 300 * 20 * 3 / 50) << noisy;
+  }
+}
+
+/// Bent to and fro as noise is, but with flats between.
+TEST(Features, OfACorrugatedPlateAllAreKept) {
+  constexpr int kFolds = 20;
+  const PolyMesh mesh = shapes::grid(kFolds, 10, [](double x, double) {
+    return std::lround(x * kFolds) % 2 == 0 ? 0.0 : 1.0 / kFolds;
+  });
+  EXPECT_EQ(feature_edges(imported(mesh).mesh), (kFolds - 1) * 10);
+}
+
 TEST(Features, SliversDoNotTurnTheirNeighboursIntoCreases) {
   // A flat square with a triangle of no height on the diagonal, its apex off by rounding.
   for (const double offset : {-1e-9, 0.0, 1e-9}) {

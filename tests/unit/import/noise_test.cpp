@@ -11,6 +11,7 @@
 #include "common/geometry/samples/samples.h"
 #include "stages/import/import.h"
 #include "tests/support/mesh_support.h"
+#include "tests/unit/import/shapes.h"
 
 namespace strake {
 namespace {
@@ -70,6 +71,15 @@ TEST(Noise, ShowsInBendsToAndFro) {
   EXPECT_NEAR(coarse.median_bend_deg, 70.5, 0.11);  // 180 less the dihedral angle
   EXPECT_NEAR(coarse.to_and_fro, 0, 1e-12);
   EXPECT_FALSE(coarse.is_much());
+}
+
+/// Edges across the lines of a scanner are bent, those along them hardly: length counts.
+TEST(Noise, ShowsOnScanLines) {
+  PolyMesh lines = shapes::grid(300, 20, [](double, double) { return 0.0; });
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0, 0.35 / 300);
+  for (Vec3& p : lines.positions) p.z() += noise(random);
+  EXPECT_TRUE(measure_noise(shapes::imported(lines).mesh).is_much());
 }
 
 TEST(Noise, IsMeasuredAlikeInAnyUnit) {
