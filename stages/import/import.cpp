@@ -169,6 +169,27 @@ void report_noise(const TriMesh& mesh, Report& report) {
                   noise.median_bend_deg));
 }
 
+/// Creases are held where noise leaves them to be seen.
+void take_noise_off(TriMesh& mesh, const ImportOptions& options, const PolyMesh& soup,
+                    Report& report) {
+  /// Share of the diagonal that noise is hardly larger than on a surface that is not rough.
+  constexpr double kFar = 0.01;
+  const bool is_rough = import::measure_noise(mesh).is_much();
+  if (!is_rough) {
+    const FeatureRules creases = {
+        .angle_deg = options.feature_angle_deg, .labels = false, .seams = false};
+    import::find_features(mesh, creases, soup, nullptr);
+  }
+  const import::Moves moves = import::take_noise_off(mesh, options.denoise);
+  report.set("noise.moved_rms_share", moves.rms / mesh.diagonal);
+  report.set("noise.moved_largest_share", moves.largest / mesh.diagonal);
+  if (is_rough || moves.largest <= kFar * mesh.diagonal) return;
+  report.warn(fmt::format(
+      "--denoise moved a surface that is not rough by up to {:.2f} % of the diagonal ({:.2f} % "
+      "RMS), and distances are those to what it became; leave it out, or use fewer rounds",
+      100 * moves.largest / mesh.diagonal, 100 * moves.rms / mesh.diagonal));
+}
+
 void divide_long_edges(TriMesh& mesh, const ImportOptions& options, Report& report) {
   /// What it may cost, in vertices.
   constexpr Index kMostVertices = 8000;
@@ -264,8 +285,7 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
   result.mesh.diagonal = frame.diagonal;
   if (options.denoise > 0) {
     observer.report("taking noise off", 0.6);
-    const double moved = import::take_noise_off(result.mesh, options.denoise);
-    result.report.set("noise.moved_rms_share", moved / result.mesh.diagonal);
+    take_noise_off(result.mesh, options, soup, result.report);
   }
   observer.report("finding features", 0.7);
   const import::FeatureCounts features = import::find_features(

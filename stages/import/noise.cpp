@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -15,9 +14,10 @@ namespace {
 constexpr double kMuchBend = 20;
 constexpr double kMuchToAndFro = 0.75;
 constexpr std::size_t kBinsPerDegree = 10;
-/// Taubin's factors: what is longer than about twenty edges stays.
-constexpr double kForth = 0.5;
-constexpr double kBack = -0.53;
+/// Share of the second difference that a round takes: nothing oscillates below a half.
+constexpr double kRate = 0.3;
+/// Share of the diagonal below which edges count as this long.
+constexpr double kShortest = 1e-9;
 
 /// Bends of edges, positive where the surface is convex.
 struct Bends {
@@ -90,44 +90,104 @@ double to_and_fro(const TriMesh& mesh, const Bends& bends) {
   return all > 0 ? 1 - left / all : 0;
 }
 
-/// [V] 1 at the boundary.
-std::vector<std::uint8_t> boundary_vertices(const TriMesh& mesh) {
-  std::vector<std::uint8_t> at_boundary(mesh.positions.size(), 0);
+/// What a vertex lies on; vertices are compared with others of their kind.
+enum class Kind : std::uint8_t { face, crease, boundary, held };
+
+/// [V] Corners and ends of creases are held, at the boundary, too.
+std::vector<Kind> kinds_of_vertices(const TriMesh& mesh) {
+  std::vector<int> creases(mesh.positions.size(), 0);
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
-    if (mesh.is_boundary(h)) at_boundary[mesh.from(h)] = at_boundary[mesh.to(h)] = 1;
+    if (mesh.is_feature[h] != 0) ++creases[mesh.from(h)];
   }
-  return at_boundary;
+  std::vector<Kind> kinds(mesh.positions.size(), Kind::face);
+  for (std::size_t v = 0; v < kinds.size(); ++v) {
+    if (creases[v] == 0) continue;
+    kinds[v] = creases[v] == 2 && mesh.is_corner[v] == 0 ? Kind::crease : Kind::held;
+  }
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    if (!mesh.is_boundary(h)) continue;
+    for (const Index v : {mesh.from(h), mesh.to(h)}) {
+      kinds[v] = creases[v] == 0 ? Kind::boundary : Kind::held;
+    }
+  }
+  return kinds;
 }
 
-/// [V] unit normals of the vertices at the boundary, by the areas of their faces.
-std::vector<Vec3> boundary_normals(const TriMesh& mesh,
-                                   const std::vector<std::uint8_t>& at_boundary) {
-  std::vector<Vec3> normal(mesh.positions.size(), Vec3::Zero());
+/// [V] unit normals of the vertices, by the areas of their faces.
+std::vector<Vec3> vertex_normals(const TriMesh& mesh) {
+  std::vector<Vec3> normals(mesh.positions.size(), Vec3::Zero());
   for (const auto& [a, b, c] : mesh.faces) {
-    if (at_boundary[a] == 0 && at_boundary[b] == 0 && at_boundary[c] == 0) continue;
     const Vec3 area =
         (mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a]);
-    for (const Index v : {a, b, c}) normal[v] += area;
+    for (const Index v : {a, b, c}) normals[v] += area;
   }
-  for (Vec3& n : normal) n.normalize();
-  return normal;
+  for (Vec3& n : normals) n.normalize();
+  return normals;
 }
 
-/// Neighbours that count for the middle of a vertex, pair by pair.
-std::vector<std::array<Index, 2>> pairs_of_neighbours(
-    const TriMesh& mesh, const std::vector<std::uint8_t>& at_boundary) {
-  std::vector<std::array<Index, 2>> pairs;
+/// A neighbour that counts for the middle of a vertex.
+struct Arm {
+  Index at = 0;
+  Index to = 0;
+  double share = 0;  ///< of all arms of the vertex
+  /// Of what both ends are off their middles in the comparison; 0 where they are not compared.
+  double here = 0;
+  double there = 0;
+};
+
+std::vector<Arm> arms_of(const TriMesh& mesh, const std::vector<Kind>& kinds) {
+  std::vector<Arm> arms;
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
     const Index a = mesh.from(h);
     const Index b = mesh.to(h);
-    if (mesh.is_boundary(h)) {
-      pairs.push_back({a, b});
-      pairs.push_back({b, a});
-    } else if (at_boundary[a] == 0) {
-      pairs.push_back({a, b});
-    }
+    const bool is_crease = mesh.is_feature[h] != 0;
+    if (kinds[a] == Kind::face || (kinds[a] == Kind::crease && is_crease)) arms.push_back({a, b});
+    if (!mesh.is_boundary(h)) continue;
+    if (kinds[a] == Kind::boundary) arms.push_back({a, b});
+    if (kinds[b] == Kind::boundary) arms.push_back({b, a});
   }
-  return pairs;
+  return arms;
+}
+
+/// Fills in shares and scales from lengths of edges.
+void weigh(const TriMesh& mesh, const std::vector<Kind>& kinds, std::vector<Arm>& arms) {
+  std::vector<double> sum(mesh.positions.size(), 0);
+  std::vector<double> count(mesh.positions.size(), 0);
+  for (Arm& arm : arms) {
+    const double length = (mesh.positions[arm.to] - mesh.positions[arm.at]).norm();
+    arm.share = 1 / std::max(length, kShortest * mesh.diagonal);
+    sum[arm.at] += arm.share;
+    count[arm.at] += 1;
+  }
+  for (Arm& arm : arms) {
+    arm.share /= sum[arm.at];
+    if (kinds[arm.at] != kinds[arm.to]) continue;
+    const double here = count[arm.at] / sum[arm.at];
+    const double there = count[arm.to] / sum[arm.to];
+    arm.here = std::min(here, there) / here;
+    arm.there = std::min(here, there) / there;
+  }
+}
+
+/// Moves the vertices of a mesh once.
+void smooth(TriMesh& mesh, const std::vector<Kind>& kinds, const std::vector<Arm>& arms) {
+  const std::vector<Vec3> normals = vertex_normals(mesh);
+  const auto keep_to_normals = [&](std::vector<Vec3>& vectors) {
+    for (std::size_t v = 0; v < vectors.size(); ++v) {
+      if (kinds[v] == Kind::boundary) vectors[v] = vectors[v].dot(normals[v]) * normals[v];
+    }
+  };
+  std::vector<Vec3> off(kinds.size(), Vec3::Zero());
+  for (const Arm& arm : arms) {
+    off[arm.at] += arm.share * (mesh.positions[arm.to] - mesh.positions[arm.at]);
+  }
+  keep_to_normals(off);
+  std::vector<Vec3> move(kinds.size(), Vec3::Zero());
+  for (const Arm& arm : arms) {
+    move[arm.at] += arm.share * (arm.here * off[arm.at] - arm.there * off[arm.to]);
+  }
+  keep_to_normals(move);
+  for (std::size_t v = 0; v < move.size(); ++v) mesh.positions[v] += kRate * move[v];
 }
 
 }  // namespace
@@ -142,29 +202,22 @@ Noise measure_noise(const TriMesh& mesh) {
   return noise;
 }
 
-double take_noise_off(TriMesh& mesh, std::int64_t rounds) {
+Moves take_noise_off(TriMesh& mesh, std::int64_t rounds) {
   const std::vector<Vec3> before = mesh.positions;
-  const std::vector<std::uint8_t> at_boundary = boundary_vertices(mesh);
-  const std::vector<std::array<Index, 2>> pairs = pairs_of_neighbours(mesh, at_boundary);
-  std::vector<double> count(before.size(), 0);
-  for (const auto& [a, b] : pairs) count[a] += 1;
-  std::vector<Vec3> sum(before.size());
-  for (std::int64_t step = 0; step < 2 * rounds; ++step) {
-    std::ranges::fill(sum, Vec3::Zero());
-    for (const auto& [a, b] : pairs) sum[a] += mesh.positions[b];
-    const double factor = step % 2 == 0 ? kForth : kBack;
-    const std::vector<Vec3> normal = boundary_normals(mesh, at_boundary);
-    for (std::size_t v = 0; v < sum.size(); ++v) {
-      if (!(count[v] > 0)) continue;
-      const Vec3 move = factor * (sum[v] / count[v] - mesh.positions[v]);
-      mesh.positions[v] += at_boundary[v] == 0 ? move : move.dot(normal[v]) * normal[v];
-    }
-  }
+  const std::vector<Vec3> normals = vertex_normals(mesh);
+  const std::vector<Kind> kinds = kinds_of_vertices(mesh);
+  std::vector<Arm> arms = arms_of(mesh, kinds);
+  weigh(mesh, kinds, arms);
+  for (std::int64_t round = 0; round < rounds; ++round) smooth(mesh, kinds, arms);
+  Moves moves;
   double squares = 0;
   for (std::size_t v = 0; v < before.size(); ++v) {
-    squares += (mesh.positions[v] - before[v]).squaredNorm();
+    const double way = std::abs((mesh.positions[v] - before[v]).dot(normals[v]));
+    squares += way * way;
+    moves.largest = std::max(moves.largest, way);
   }
-  return std::sqrt(squares / static_cast<double>(before.size()));
+  moves.rms = std::sqrt(squares / static_cast<double>(before.size()));
+  return moves;
 }
 
 }  // namespace strake::import

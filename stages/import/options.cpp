@@ -33,8 +33,9 @@ OptionList ImportOptions::declare() {
       {.name = "denoise",
        .target = &denoise,
        .unit = "N",
-       .help = "Rounds of smoothing that take noise off a scan, 10 for much of it; creases become "
-               "round, and distances are those to the smoothed surface.",
+       .help =
+           "Rounds of smoothing that take noise off a scan, 10 for much of it; where it is rough "
+           "creases become round, and distances are those to the smoothed surface.",
        .min = 0,
        .max = 1000},
       {.name = "longest-edge",
