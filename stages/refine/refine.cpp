@@ -45,6 +45,10 @@ constexpr std::array<double, 3> kPlacesOnEdge = {0.25, 0.5, 0.75};
 constexpr std::int64_t kRoundsInSpace = 3;
 /// Rounds after which vertices are moved to the places that are left, where dividing did not help.
 constexpr std::int64_t kRoundsOfDividing = 6;
+/// Size, in tolerances, of cells that are too small to be divided for places of the input: what is
+/// farther than one tolerance from the middle of an edge of up to two is outside the ball over it,
+/// so a vertex there hardly comes nearer.
+constexpr double kTooSmall = 1.5;
 /// Rounds that may leave more places than one before. What is reached at all is reached with fewer
 /// from round to round.
 constexpr std::int64_t kRoundsInVain = 4;
@@ -256,6 +260,24 @@ std::vector<Target> cells_by_distance(const ComparedSurfaces& surfaces) {
   return targets;
 }
 
+/// Leaves out cells that are too small for dividing them to bring places of the input nearer: in
+/// folds it would go on for ever, and more and more faces cross.
+/// \param excess  what the cells are to be divided for
+std::vector<Target> large_enough(const ComparedSurfaces& surfaces, const PolyMesh& mesh,
+                                 const std::vector<Excess>& excess, double tolerance,
+                                 std::vector<Target> targets) {
+  std::vector<char> is_beyond(static_cast<std::size_t>(mesh.face_count()), 0);
+  for (const Excess& e : excess) {
+    if (e.input_face == kNone) is_beyond[e.cell] = 1;
+  }
+  std::erase_if(targets, [&](const Target& target) {
+    Eigen::AlignedBox3d box;
+    for (const Index v : mesh.face(target.face)) box.extend(surfaces.positions()[v]);
+    return is_beyond[target.face] == 0 && box.diagonal().norm() < kTooSmall * tolerance;
+  });
+  return targets;
+}
+
 /// The worst places, for a message. \param tolerance  model units
 std::string describe(std::vector<Excess> excess, const TriMesh& mesh, double tolerance) {
   std::stable_sort(excess.begin(), excess.end(),
@@ -318,14 +340,15 @@ std::int64_t refine_to_tolerance(const TriMesh& mesh, Refinement& refinement,
               wanted, round, describe(std::move(fewest), mesh, tolerance)),
           std::move(places));
     }
-    if (round >= kRoundsOfDividing && excess.size() >= last) {
+    const std::vector<Target> targets =
+        large_enough(surfaces, refinement.quads().mesh, excess, tolerance,
+                     cells_beyond(mesh, refinement.quads(), excess, round >= kRoundsInSpace));
+    if (targets.empty() || (round >= kRoundsOfDividing && excess.size() >= last)) {
       refinement.reach(excess);
       last = std::numeric_limits<std::size_t>::max();
     } else {
       last = excess.size();
-      refinement.divide(surfaces,
-                        cells_beyond(mesh, refinement.quads(), excess, round >= kRoundsInSpace),
-                        tolerance);
+      refinement.divide(surfaces, targets, tolerance);
     }
   }
 }

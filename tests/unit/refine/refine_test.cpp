@@ -269,9 +269,10 @@ TEST(Refine, SaysWhereTheToleranceIsNotReached) {
   EXPECT_EQ(refined(bent_strip(0.3), options).mesh.face_count(), 1);
 }
 
-/// A result for one of two plates only: no division of its cells reaches the other one.
-TEST(Refine, GivesUpWhereDividingIsInVain) {
-  Case c = grid(4, 2, [](double, double) { return 0.0; });
+/// A result for one of two plates only, which are 0.5 apart: no division of its cells reaches the
+/// other one.
+Case one_of_two_plates(Index cells) {
+  Case c = grid(2 * cells, cells, [](double, double) { return 0.0; });
   PolyMesh soup;
   for (const double z : {0.0, 0.5}) {
     const Index first = soup.vertex_count();
@@ -281,6 +282,11 @@ TEST(Refine, GivesUpWhereDividingIsInVain) {
     }
   }
   c.mesh = support::plain_tri_mesh(soup);
+  return c;
+}
+
+TEST(Refine, GivesUpWhereDividingIsInVain) {
+  const Case c = one_of_two_plates(2);
   try {
     refined(c, within(0.01));
     ADD_FAILURE() << "no error";
@@ -288,6 +294,17 @@ TEST(Refine, GivesUpWhereDividingIsInVain) {
     EXPECT_NE(std::string(error.what()).find("after 4 rounds"), std::string::npos) << error.what();
     EXPECT_FALSE(error.places().empty());
     for (const Vec3& p : error.places()) EXPECT_NEAR(p.z(), 0.5, 1e-12);
+  }
+}
+
+/// Cells with diagonals of up to 1.5 tolerances are not divided for what is farther away.
+TEST(Refine, LeavesCellsThatAreSmallAgainstTheTolerance) {
+  const Case c = one_of_two_plates(8);
+  const double diagonal = std::sqrt(2) / 8;
+  for (const double tolerances : {1.4, 1.6}) {
+    RefineOptions options = within(diagonal / tolerances);
+    options.partly = true;
+    EXPECT_EQ(refined(c, options).mesh.face_count() > 64, tolerances > 1.5) << tolerances;
   }
 }
 
