@@ -27,6 +27,10 @@ struct Goal {
 };
 constexpr Goal kWithin = {false, 4000, 16};
 constexpr Goal kUncrossed = {true, 1000, 16};
+/// Cells in place of which an inlay for faces that cross may be, for each of these, and for few.
+/// Along ragged boundaries it would grow as long as there is no other like its patch.
+constexpr std::size_t kMostCellsPerFault = 75;
+constexpr std::size_t kFewCells = 250;
 /// Share of all cells that a component may have whose place an inlay takes altogether. Larger ones
 /// should follow lines.
 constexpr double kMostWhole = 0.1;
@@ -53,9 +57,10 @@ const Ball kEverywhere = {Vec3::Zero(), std::numeric_limits<double>::infinity()}
 
 /// Where an inlay is to be.
 struct Site {
-  std::set<Index> cells;  ///< that it is to take the place of, at least
-  int rings = 0;          ///< of them, about
-  int times_bad = 0;      ///< in turn
+  std::set<Index> cells;   ///< that it is to take the place of, at least
+  std::size_t faults = 1;  ///< cells around which it was begun
+  int rings = 0;           ///< of them, about
+  int times_bad = 0;       ///< in turn
   Inlay inlay = {};
   std::size_t cut_for = 0;  ///< how many cells there were when it was cut
 };
@@ -270,14 +275,23 @@ class Inlays {
     return !cells.empty() || may_grow;
   }
 
+  /// Whether a site is large for the faces that cross for which it is.
+  [[nodiscard]] bool is_out_of_proportion(const Site& site) const {
+    return goal_.uncrosses &&
+           site.cells.size() > std::max(kFewCells, kMostCellsPerFault * site.faults);
+  }
+
   /// Cuts the inlay of a site, which grows as long as there is none.
   std::optional<Inlay> cut_growing(Site& site) {
+    if (is_out_of_proportion(site)) return std::nullopt;
     std::optional<Inlay> inlay = cutter_.cut(site.cells);
     for (std::size_t before = 0; !inlay && site.cells.size() > before;) {
       before = site.cells.size();
       cells_in_vain_ += before;
       widen(site);
-      if (site.cells.size() > goal_.cells || cells_in_vain_ > kMostInVain) break;
+      if (is_out_of_proportion(site) || site.cells.size() > goal_.cells ||
+          cells_in_vain_ > kMostInVain)
+        break;
       inlay = cutter_.cut(site.cells);
     }
     return inlay;
@@ -319,6 +333,7 @@ class Inlays {
       std::set<Index> inlaid(site.inlay.cells.begin(), site.inlay.cells.end());
       for (const Index s : others) {
         Site& other = merged[s];
+        site.faults += other.faults;
         site.rings = std::max(site.rings, other.rings);
         site.cells.merge(other.cells);
         inlaid.insert(other.inlay.cells.begin(), other.inlay.cells.end());

@@ -261,16 +261,17 @@ double flat_area(const PolyMesh& mesh) {
   return sum;
 }
 
-/// A case without the cells that are named, and without the surface under them.
-Case with_hole(const Case& whole, const std::set<Index>& cells) {
-  const auto index = [](double x) { return std::min<Index>(7, static_cast<Index>(8 * x)); };
-  const auto cell_at = [&](const Vec3& p) { return 8 * index(p.y()) + index(p.x()); };
+/// A case of n x n cells without some of them, and without the surface under some.
+Case with_holes(const Case& whole, Index n, const std::set<Index>& cells,
+                const std::set<Index>& surface) {
+  const auto index = [&](double x) { return std::min<Index>(n - 1, static_cast<Index>(n * x)); };
+  const auto cell_at = [&](const Vec3& p) { return n * index(p.y()) + index(p.x()); };
   PolyMesh soup;
   std::map<Index, Index> number;
   for (const auto& t : whole.mesh.faces) {
     Vec3 middle = whole.mesh.origin;
     for (const Index v : t) middle += whole.mesh.positions[v] / 3;
-    if (cells.contains(cell_at(middle))) continue;
+    if (surface.contains(cell_at(middle))) continue;
     std::array<Index, 3> face = t;
     for (Index& v : face) {
       const auto [at, is_new] = number.try_emplace(v, soup.vertex_count());
@@ -296,6 +297,11 @@ Case with_hole(const Case& whole, const std::set<Index>& cells) {
     result.quads.provenance.lines.push_back({kNone, kNone});
   }
   return result;
+}
+
+/// A case of 8 x 8 cells without those that are named, and without the surface under them.
+Case with_hole(const Case& whole, const std::set<Index>& cells) {
+  return with_holes(whole, 8, cells, cells);
 }
 
 /// Puts an inlay over cells into a result. \pre the surface is not much bent
@@ -428,21 +434,14 @@ TEST(Inlays, MendComponentsThatHaveNothingAround) {
   EXPECT_EQ(topology.boundary_loops, 10);
 }
 
-/// Over a flat with small waves a vertex lies beyond its neighbours; the outline of the cells
-/// around it crosses itself, so that the vertex cannot just be taken out.
-Case crossed() {
-  Case c = grid(32, 8, [](double x, double y) { return 0.2 * terrain(x, y); });
-  const auto put = [&](Index v, const SurfacePoint& point) {
-    c.quads.provenance.face[v] = point.face;
-    c.quads.provenance.barycentric[v] = point.barycentric;
-    c.quads.mesh.positions[v] = place_of(c.mesh, point);
-  };
-  const SurfacePoint a{c.quads.provenance.face[4 * 9 + 4],
-                       c.quads.provenance.barycentric[4 * 9 + 4]};
-  const SurfacePoint b{c.quads.provenance.face[4 * 9 + 5],
-                       c.quads.provenance.barycentric[4 * 9 + 5]};
-  put(4 * 9 + 4, b);
-  put(4 * 9 + 5, a);
+/// Over a flat with small waves a vertex in the middle of n x n cells lies beyond its neighbours;
+/// the outline of the cells around it crosses itself, so that the vertex cannot just be taken out.
+Case crossed(Index n = 8) {
+  Case c = grid(4 * n, n, [](double x, double y) { return 0.2 * terrain(x, y); });
+  const Index middle = (n + 2) * (n / 2);
+  std::swap(c.quads.provenance.face[middle], c.quads.provenance.face[middle + 1]);
+  std::swap(c.quads.provenance.barycentric[middle], c.quads.provenance.barycentric[middle + 1]);
+  std::swap(c.quads.mesh.positions[middle], c.quads.mesh.positions[middle + 1]);
   return c;
 }
 
@@ -465,6 +464,21 @@ TEST(Inlays, MakeFacesThatCrossFewer) {
     if (is_of_inlay[v] != 0) continue;
     EXPECT_EQ(std::ranges::count(c.quads.mesh.positions, quads.mesh.positions[v]), 1);
   }
+}
+
+/// The surface has a hole where faces of the result cross, which has one far away instead: only
+/// what lies over hundreds of cells is like them.
+TEST(Inlays, StayInProportionToWhatCrosses) {
+  constexpr Index kCells = 40;
+  const Index middle = (kCells + 1) * (kCells / 2);
+  const Case c = with_holes(crossed(kCells), kCells, {middle + 8 * kCells}, {middle});
+  CrossingPlaces crossing(c.mesh);
+  ASSERT_FALSE(crossing.faces_of(c.quads.mesh).empty());
+  ToleranceProof proof(std::make_shared<const InputSurface>(c.mesh), 0.03);
+  QuadMesh quads = c.quads;
+  ASSERT_TRUE(proof.check(ComparedSurfaces(proof.input(), quads)).empty());
+  EXPECT_TRUE(inlay_crossing(proof, crossing, 0.03, quads).empty());
+  EXPECT_EQ(quads.mesh.corners, c.quads.mesh.corners);
 }
 
 /// Without a tolerance, and where other places are far from the surface.
