@@ -56,8 +56,10 @@ constexpr double kCloserThere = 0.5;
 constexpr int kCloserLines = 2;
 constexpr double kCloser = 0.6;
 /// Share of the faces that cross, from which on all lines are traced closer where nobody wants a
-/// count, and times they are at most.
+/// count; from which on they are within a tolerance, and to which; and times they are at most.
 constexpr double kTooManyCross = 0.05;
+constexpr double kTangled = 0.5;
+constexpr double kMended = 0.3;
 constexpr int kMostTimesCloser = 4;
 /// Attempts in vain to part faces that cross; within a tolerance the input's own faces have been
 /// tried for them before.
@@ -198,6 +200,33 @@ std::optional<ToleranceError> refine_in_turn(Session& session, const GoalStages&
   return miss;
 }
 
+/// Whether there are fewer vertices than the input has, so that lines may be too coarse for it.
+bool may_be_too_coarse(const Session& session) {
+  return count_of(session, "quads", Counted::vertices) < given_vertex_count(session);
+}
+
+/// Share of the faces that lines give that cross.
+double crossing_share(const Session& session, CrossingPlaces& crossing) {
+  const PolyMesh& faces = session.get<QuadMesh>("quads").mesh;
+  return static_cast<double>(crossing.of(faces).size()) / faces.face_count();
+}
+
+/// Traces, meshes and fits; where most faces cross, as lines are farther apart than the shape is
+/// thick, at closer distances until so few do that they can be mended. Within a tolerance larger
+/// than that nothing else tells that faces are inside out.
+void trace_apart(Session& session, const GoalStages& stages, CrossingPlaces& crossing) {
+  trace_mesh_and_fit(session, stages);
+  double most = kTangled;
+  for (int i = 0; i < kMostTimesCloser && may_be_too_coarse(session); ++i) {
+    const double share = crossing_share(session, crossing);
+    if (share <= most) return;
+    most = kMended;
+    session.say(fmt::format("{:.0f} % of the faces cross; tracing closer lines", 100 * share));
+    scale_lines(stages, kCloser * std::stod(stages.trace.option("spacing-scale").value()));
+    trace_mesh_and_fit(session, stages);
+  }
+}
+
 /// Traces at the distances that the options ask for, and closer where dividing cells does not reach
 /// the tolerance: around the places that are left, and everywhere where that is not enough.
 /// \param times_everywhere  at most
@@ -207,7 +236,7 @@ Attempt trace_within(Session& session, const GoalStages& stages, CrossingPlaces&
                      int times_everywhere) {
   const Option& scale = stages.trace.option("spacing-scale");
   for (int trial = 0;; ++trial) {
-    trace_mesh_and_fit(session, stages);
+    trace_apart(session, stages, crossing);
     const Session meshed = session;
     const std::optional<ToleranceError> miss = refine_in_turn(session, stages);
     if (!miss) return {meshed, session, crossing.of(session.get<QuadMesh>("refined").mesh)};
@@ -327,17 +356,6 @@ void trace_to_count(Session& session, const GoalStages& stages, const LineAim& a
   const Index faces = first.done.get<QuadMesh>("fitted").mesh.face_count();
   const Attempt parted = part_faces(first, faces, kPatience, closer_by(kCloserWhereCrossing), keep);
   session = regain_details(parted, closer_by(kCloserAtDetails), keep).done;
-}
-
-/// Whether there are fewer vertices than the input has, so that lines may be too coarse for it.
-bool may_be_too_coarse(const Session& session) {
-  return count_of(session, "quads", Counted::vertices) < given_vertex_count(session);
-}
-
-/// Share of the faces that lines give that cross.
-double crossing_share(const Session& session, CrossingPlaces& crossing) {
-  const PolyMesh& faces = session.get<QuadMesh>("quads").mesh;
-  return static_cast<double>(crossing.of(faces).size()) / faces.face_count();
 }
 
 /// Traces, and closer where so many faces cross that lines are too coarse for the shape. Then makes

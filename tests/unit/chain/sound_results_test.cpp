@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -428,6 +429,53 @@ TEST(Remesh, AConeOfTwoFansIsRound) {
     const RemeshResult result = remesh({mesh, {}, {}, {}});
     EXPECT_LT(largest_distance(result), 1e-2 * result.mesh.diagonal) << sides;
   }
+}
+
+/// A cylinder along z, closed by two fans, with rings evenly between those a hundredth from its
+/// ends.
+PolyMesh rod(Index sides, Index rings, double length) {
+  PolyMesh mesh;
+  for (Index r = 0; r < rings; ++r) {
+    const double share = 0.01 + 0.98 * (r - 1) / (rings - 3);
+    for (Index i = 0; i < sides; ++i) {
+      const double angle = 2 * M_PI * i / sides;
+      mesh.positions.emplace_back(0.5 * std::cos(angle), 0.5 * std::sin(angle),
+                                  length * std::clamp(share, 0.0, 1.0));
+    }
+  }
+  const Index ends = mesh.vertex_count();
+  mesh.positions.emplace_back(0, 0, 0);
+  mesh.positions.emplace_back(0, 0, length);
+  const Index last = ends - sides;
+  for (Index i = 0; i < sides; ++i) {
+    const Index next = (i + 1) % sides;
+    for (Index r = 0; r < last; r += sides) {
+      mesh.add_face(std::array<Index, 4>{r + i, r + next, r + sides + next, r + sides + i});
+    }
+    mesh.add_face(std::array<Index, 3>{ends, next, i});
+    mesh.add_face(std::array<Index, 3>{ends + 1, last + i, last + next});
+  }
+  return mesh;
+}
+
+double volume(const PolyMesh& mesh) {
+  double sum = 0;
+  for (const auto& [a, b, c] : triangulate_faces(mesh).corners) {
+    sum += mesh.positions[a].dot(mesh.positions[b].cross(mesh.positions[c])) / 6;
+  }
+  return sum;
+}
+
+// All of it is within three times its thickness of all of it, inside out, too.
+TEST(Remesh, WhatIsThinnerThanTheToleranceIsNotTurnedInsideOut) {
+  const PolyMesh mesh = rod(16, 62, 1000);
+  RemeshOptions options;
+  options.trace.tolerance = percent(0.3);
+  options.measure = false;
+  const RemeshResult result = remesh({mesh, {}, {}, {}}, options);
+  EXPECT_EQ(crossings(result.quads.mesh), 0u);
+  // A square within a circle has 2/pi of its area.
+  EXPECT_GT(volume(result.quads.mesh), 2 / M_PI * volume(mesh));
 }
 
 // Within a tolerance that its own faces are coarse against a mesh is a polyhedron with many edges.
