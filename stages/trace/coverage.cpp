@@ -92,13 +92,14 @@ void Coverage::sample_face(Index face) {
 }
 
 void Coverage::mark(const CoveredDisc& disc, BlockWalk& walk) {
-  for (const Index block : walk.around(disc.face, disc.point, disc.distance)) {
+  walk.around(disc.face, disc.point, disc.distance, [&](Index block) {
     if (std::atomic_ref(open_corners_[block]).load(std::memory_order_relaxed) > 0) {
       mark_corners(block, disc);
     }
     // Only large faces have points of their own.
     if (blocks_.is_single(block)) mark_points(blocks_.faces(block).front(), disc);
-  }
+    return disc.distance;
+  });
 }
 
 void Coverage::mark_corners(Index block, const CoveredDisc& disc) {

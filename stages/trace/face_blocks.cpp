@@ -171,31 +171,29 @@ void FaceBlocks::find_ways() {
   }
 }
 
-const std::vector<Index>& BlockWalk::around(Index face, const Vec3& point, double distance) {
+void BlockWalk::start(Index face) {
   if (++current_ == 0) {
     std::fill(stamp_.begin(), stamp_.end(), 0U);
     current_ = 1;
   }
-  const TriMesh& mesh = blocks_.mesh_;
   const Index first = blocks_.block_of(face);
   stamp_[first] = current_;
   cell_.assign(1, first);
-  for (std::size_t at = 0; at < cell_.size(); ++at) {
-    const Index block = cell_[at];
-    for (Index w = blocks_.first_way_[block]; w < blocks_.first_way_[block + 1]; ++w) {
-      const auto [other, h] = blocks_.ways_[w];
-      if (stamp_[other] == current_) continue;
-      if (!is_within(other, point, distance)) continue;
-      if (h != kNone &&
-          (way_to_segment(point, mesh.positions[mesh.from(h)], mesh.positions[mesh.to(h)])
-               .squaredNorm() > distance * distance)) {
-        continue;
-      }
-      stamp_[other] = current_;
-      cell_.push_back(other);
+}
+
+void BlockWalk::go_on_from(Index block, const Vec3& point, double distance) {
+  const TriMesh& mesh = blocks_.mesh_;
+  for (Index w = blocks_.first_way_[block]; w < blocks_.first_way_[block + 1]; ++w) {
+    const auto [other, h] = blocks_.ways_[w];
+    if (stamp_[other] == current_ || !is_within(other, point, distance)) continue;
+    if (h != kNone &&
+        (way_to_segment(point, mesh.positions[mesh.from(h)], mesh.positions[mesh.to(h)])
+             .squaredNorm() > distance * distance)) {
+      continue;
     }
+    stamp_[other] = current_;
+    cell_.push_back(other);
   }
-  return cell_;
 }
 
 }  // namespace strake

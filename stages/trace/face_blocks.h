@@ -83,15 +83,16 @@ class BlockWalk {
   explicit BlockWalk(const FaceBlocks& blocks) : blocks_(blocks), stamp_(blocks.count(), 0) {}
 
   /// Blocks that can be reached from a face over blocks, and edges of large faces, which are not
-  /// farther than `distance` from a point of that face.
-  /// \return valid until the next walk
-  const std::vector<Index>& around(Index face, const Vec3& point, double distance);
-
-  /// Whether a block may have something nearer to a point than `distance`.
-  [[nodiscard]] bool is_within(Index block, const Vec3& point, double distance) const {
-    const auto& [centre, radius] = blocks_.balls_[block];
-    const double reach = distance + radius;
-    return (Vec3(centre[0], centre[1], centre[2]) - point).squaredNorm() <= reach * reach;
+  /// farther than `distance` from a point of that face. Calls use(block) for each, which returns
+  /// the distance for those after it: what is nearest so far, where nothing farther matters.
+  template <class Use>
+  void around(Index face, const Vec3& point, double distance, const Use& use) {
+    start(face);
+    for (std::size_t at = 0; at < cell_.size(); ++at) {
+      if (at > 0 && !is_within(cell_[at], point, distance)) continue;
+      distance = use(cell_[at]);
+      go_on_from(cell_[at], point, distance);
+    }
   }
 
   /// Whether the last walk came to the block of a face.
@@ -100,6 +101,16 @@ class BlockWalk {
   }
 
  private:
+  void start(Index face);
+  /// Appends those beside a block that are near enough, and were not there yet.
+  void go_on_from(Index block, const Vec3& point, double distance);
+  /// Whether a block may have something nearer to a point than `distance`.
+  [[nodiscard]] bool is_within(Index block, const Vec3& point, double distance) const {
+    const auto& [centre, radius] = blocks_.balls_[block];
+    const double reach = distance + radius;
+    return (Vec3(centre[0], centre[1], centre[2]) - point).squaredNorm() <= reach * reach;
+  }
+
   const FaceBlocks& blocks_;
   std::vector<std::uint32_t> stamp_;  ///< [B] walk that came there last
   std::uint32_t current_ = 0;

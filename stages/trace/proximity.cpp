@@ -75,7 +75,7 @@ void ProximityProbe::clear() {
 }
 
 bool ProximityProbe::can_reach(Index face, const Vec3& point, double distance, Index target) {
-  walk_.around(face, point, distance);
+  walk_.around(face, point, distance, [&](Index) { return distance; });
   return walk_.reached(target);
 }
 
@@ -100,8 +100,7 @@ ProximityHit ProximityProbe::query(const ProximityQuery& query) {
     best = d;
     hit = {true, line, std::sqrt(d)};
   };
-  for (const Index block : walk_.around(query.face, query.point, query.distance)) {
-    if (!walk_.is_within(block, query.point, hit.distance)) continue;
+  walk_.around(query.face, query.point, query.distance, [&](Index block) {
     const auto for_near = [&](const SegmentLists& segments, const auto& use) {
       segments.for_near(block, query.point, hit.distance, use);
     };
@@ -112,11 +111,12 @@ ProximityHit ProximityProbe::query(const ProximityQuery& query) {
     for_near(index_.segments(), [&](const LineSegment& segment, Index) {
       if (query.is_alike(segment)) consider(segment.a, segment.b, segment.line);
     });
-    if (query.ignore_barriers) continue;
+    if (query.ignore_barriers) return hit.distance;
     index_.for_barriers(block, query.point, hit.distance, [&](const auto& barrier) {
       if (query.is_alike(barrier.direction)) consider(barrier.a, barrier.b, kNone);
     });
-  }
+    return hit.distance;
+  });
   return hit;
 }
 
@@ -129,18 +129,16 @@ std::pair<double, double> ProximityProbe::distances_beside(const ProximityQuery&
     double& side = way.dot(left) > 0 ? nearest.first : nearest.second;
     side = std::min(side, way.norm());
   };
-  for (const Index block : walk_.around(query.face, query.point, query.distance)) {
+  walk_.around(query.face, query.point, query.distance, [&](Index block) {
     const double reach = std::max(nearest.first, nearest.second);
-    if (!walk_.is_within(block, query.point, reach)) continue;
     index_.segments().for_near(block, query.point, reach, [&](const LineSegment& segment, Index) {
-      if (query.is_alike(segment.direction)) {
-        consider(segment.a, segment.b);
-      }
+      if (query.is_alike(segment.direction)) consider(segment.a, segment.b);
     });
     index_.for_barriers(block, query.point, reach, [&](const auto& barrier) {
       if (query.is_alike(barrier.direction)) consider(barrier.a, barrier.b);
     });
-  }
+    return std::max(nearest.first, nearest.second);
+  });
   return nearest;
 }
 

@@ -16,8 +16,10 @@ namespace strake {
 namespace {
 
 constexpr int kMostAttempts = 2;
-/// Faces of a result, from which on there are none.
+/// Faces of a result, from which on there are none, and share of them that may cross: where more do
+/// lines are too coarse all over.
 constexpr Index kMostFaces = 3000;
+constexpr double kMostCross = 0.02;
 /// Distance from the surface, in mean lengths of cells, from which on a detail is lost.
 constexpr double kLost = 0.3;
 /// Share of the largest distance from which on a place is looked at.
@@ -66,7 +68,9 @@ Attempt regain_details(const Attempt& first, const Again& again,
                        const std::function<void(Attempt&)>& keep) {
   Attempt best = first;
   Attempt last = first;
-  if (first.done.get<QuadMesh>(result_port(first.done)).mesh.face_count() > kMostFaces) return best;
+  const Index faces = first.done.get<QuadMesh>(result_port(first.done)).mesh.face_count();
+  const double crossing = static_cast<double>(first.places.size()) / faces;
+  if (faces > kMostFaces || crossing > kMostCross) return best;
   Distance least = distance_of(first.done);
   Distance distance = least;
   bool is_last_best = true;
