@@ -54,10 +54,12 @@ class Roughness {
     return std::max(*middle - kSmooth, 0.0);
   }
 
+  /// The bend that a quarter of the edges around the last one have at most.
   double quarter() {
+    if (bends_.empty()) return 0;
     const auto at = bends_.begin() + static_cast<std::ptrdiff_t>(bends_.size() / 4);
     std::nth_element(bends_.begin(), at, bends_.end());
-    return bends_.empty() ? 0 : *at;
+    return *at;
   }
 
  private:
