@@ -56,10 +56,12 @@ constexpr double kCloserThere = 0.5;
 constexpr int kCloserLines = 2;
 constexpr double kCloser = 0.6;
 /// Share of the faces that cross, from which on all lines are traced closer where nobody wants a
-/// count; from which on they are within a tolerance, and to which; and times they are at most.
+/// count; and times they are at most. Within a tolerance: share from which on they are before cells
+/// are divided, to which they are then, and share of the result from which on it is made anew.
 constexpr double kTooManyCross = 0.05;
 constexpr double kTangled = 0.5;
 constexpr double kMended = 0.3;
+constexpr double kTangledResult = 0.1;
 constexpr int kMostTimesCloser = 4;
 /// Attempts in vain to part faces that cross; within a tolerance the input's own faces have been
 /// tried for them before.
@@ -201,23 +203,27 @@ std::optional<ToleranceError> refine_in_turn(Session& session, const GoalStages&
 }
 
 /// Whether there are fewer vertices than the input has, so that lines may be too coarse for it.
-bool may_be_too_coarse(const Session& session) {
-  return count_of(session, "quads", Counted::vertices) < given_vertex_count(session);
+bool may_be_too_coarse(const Session& session, const char* port) {
+  return count_of(session, port, Counted::vertices) < given_vertex_count(session);
+}
+
+/// \param places  of the faces at a port that cross \return their share
+double crossing_share(const Session& session, const char* port, const std::vector<Vec3>& places) {
+  return static_cast<double>(places.size()) / session.get<QuadMesh>(port).mesh.face_count();
 }
 
 /// Share of the faces that lines give that cross.
 double crossing_share(const Session& session, CrossingPlaces& crossing) {
-  const PolyMesh& faces = session.get<QuadMesh>("quads").mesh;
-  return static_cast<double>(crossing.of(faces).size()) / faces.face_count();
+  return crossing_share(session, "quads", crossing.of(session.get<QuadMesh>("quads").mesh));
 }
 
-/// Traces, meshes and fits; where most faces cross, as lines are farther apart than the shape is
-/// thick, at closer distances until so few do that they can be mended. Within a tolerance larger
-/// than that nothing else tells that faces are inside out.
-void trace_apart(Session& session, const GoalStages& stages, CrossingPlaces& crossing) {
+/// Traces, meshes and fits; where more faces cross than `most`, as lines are farther apart than the
+/// shape is thick, at closer distances until so few do that they can be mended. Within a tolerance
+/// larger than that nothing else tells that faces are inside out.
+void trace_apart(Session& session, const GoalStages& stages, CrossingPlaces& crossing,
+                 double most) {
   trace_mesh_and_fit(session, stages);
-  double most = kTangled;
-  for (int i = 0; i < kMostTimesCloser && may_be_too_coarse(session); ++i) {
+  for (int i = 0; i < kMostTimesCloser && may_be_too_coarse(session, "quads"); ++i) {
     const double share = crossing_share(session, crossing);
     if (share <= most) return;
     most = kMended;
@@ -228,18 +234,29 @@ void trace_apart(Session& session, const GoalStages& stages, CrossingPlaces& cro
 }
 
 /// Traces at the distances that the options ask for, and closer where dividing cells does not reach
-/// the tolerance: around the places that are left, and everywhere where that is not enough.
+/// the tolerance: around the places that are left, and everywhere where that is not enough. Once
+/// more where it is reached by faces that cross all over.
 /// \param times_everywhere  at most
 /// \return what is within it
 /// \throw ToleranceError where nothing helps
 Attempt trace_within(Session& session, const GoalStages& stages, CrossingPlaces& crossing,
                      int times_everywhere) {
   const Option& scale = stages.trace.option("spacing-scale");
+  bool is_tangled = false;
   for (int trial = 0;; ++trial) {
-    trace_apart(session, stages, crossing);
+    trace_apart(session, stages, crossing, is_tangled ? kMended : kTangled);
     const Session meshed = session;
     const std::optional<ToleranceError> miss = refine_in_turn(session, stages);
-    if (!miss) return {meshed, session, crossing.of(session.get<QuadMesh>("refined").mesh)};
+    if (!miss) {
+      std::vector<Vec3> places = crossing.of(session.get<QuadMesh>("refined").mesh);
+      const double share = crossing_share(session, "refined", places);
+      if (is_tangled || share <= kTangledResult || !may_be_too_coarse(session, "refined")) {
+        return {meshed, session, std::move(places)};
+      }
+      is_tangled = true;
+      scale_lines(stages, kCloser * std::stod(scale.value()));
+      continue;
+    }
     const bool is_once = stages.refine.option("refine-rounds").value() == "0";
     if (is_once || trial == kCloserPlaces + times_everywhere) throw *miss;
     if (trial < kCloserPlaces) {
@@ -365,8 +382,8 @@ bool trace_freely(Session& session, const GoalStages& stages, std::int64_t feedb
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
   trace_and_mesh(session, stages);
   double share = crossing_share(session, crossing);
-  for (int i = 0; i < kMostTimesCloser && share > kTooManyCross && may_be_too_coarse(session);
-       ++i) {
+  for (int i = 0;
+       i < kMostTimesCloser && share > kTooManyCross && may_be_too_coarse(session, "quads"); ++i) {
     session.say(fmt::format("{:.0f} % of the faces cross; tracing closer lines", 100 * share));
     scale_lines(stages, kCloser * std::stod(stages.trace.option("spacing-scale").value()));
     trace_and_mesh(session, stages);

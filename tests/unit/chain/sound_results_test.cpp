@@ -468,7 +468,7 @@ double volume(const PolyMesh& mesh) {
 
 // All of it is within three times its thickness of all of it, inside out, too.
 TEST(Remesh, WhatIsThinnerThanTheToleranceIsNotTurnedInsideOut) {
-  const PolyMesh mesh = rod(16, 62, 1000);
+  const PolyMesh mesh = rod(24, 62, 1000);
   RemeshOptions options;
   options.trace.tolerance = percent(0.3);
   options.measure = false;
