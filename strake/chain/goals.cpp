@@ -371,8 +371,12 @@ void trace_to_count(Session& session, const GoalStages& stages, const LineAim& a
     attempt.done.keep(stages.fit);
   };
   const Index faces = first.done.get<QuadMesh>("fitted").mesh.face_count();
-  const Attempt parted = part_faces(first, faces, kPatience, closer_by(kCloserWhereCrossing), keep);
-  session = regain_details(parted, closer_by(kCloserAtDetails), keep).done;
+  Attempt best = part_faces(first, faces, kPatience, closer_by(kCloserWhereCrossing), keep);
+  // Where lines miss the count they have no room for details.
+  if (first_miss <= kCountTolerance) {
+    best = regain_details(best, closer_by(kCloserAtDetails), keep);
+  }
+  session = best.done;
 }
 
 /// Traces, and closer where so many faces cross that lines are too coarse for the shape. Then makes
