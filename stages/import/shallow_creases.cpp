@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kSimilar = 0.5;  ///< share of the bend from which on another one is of its kind
 constexpr double kNear = 0.05;    ///< share of the diagonal
-constexpr int kMostFaces = 1000;  ///< that a way crosses; where bends are so far apart they are
+constexpr int kMostFaces = 1000;  ///< that a way crosses
 
 /// What a way across the surface comes to.
 struct Outlook {
