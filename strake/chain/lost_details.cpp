@@ -18,7 +18,7 @@ namespace {
 constexpr int kMostAttempts = 2;
 /// Faces of a result, from which on there are none, and share of them that may cross: where more do
 /// lines are too coarse all over.
-constexpr Index kMostFaces = 3000;
+constexpr Index kMostFaces = 10000;
 constexpr double kMostCross = 0.02;
 /// Distance from the surface, in mean lengths of cells, from which on a detail is lost.
 constexpr double kLost = 0.3;
