@@ -290,8 +290,9 @@ class Inlays {
       cells_in_vain_ += before;
       widen(site);
       if (is_out_of_proportion(site) || site.cells.size() > goal_.cells ||
-          cells_in_vain_ > kMostInVain)
+          cells_in_vain_ > kMostInVain) {
         break;
+      }
       inlay = cutter_.cut(site.cells);
     }
     return inlay;

@@ -242,23 +242,27 @@ void trace_apart(Session& session, const GoalStages& stages, CrossingPlaces& cro
 Attempt trace_within(Session& session, const GoalStages& stages, CrossingPlaces& crossing,
                      int times_everywhere) {
   const Option& scale = stages.trace.option("spacing-scale");
-  bool is_tangled = false;
+  std::optional<Attempt> tangled;
   for (int trial = 0;; ++trial) {
-    trace_apart(session, stages, crossing, is_tangled ? kMended : kTangled);
+    trace_apart(session, stages, crossing, tangled ? kMended : kTangled);
     const Session meshed = session;
     const std::optional<ToleranceError> miss = refine_in_turn(session, stages);
     if (!miss) {
-      std::vector<Vec3> places = crossing.of(session.get<QuadMesh>("refined").mesh);
-      const double share = crossing_share(session, "refined", places);
-      if (is_tangled || share <= kTangledResult || !may_be_too_coarse(session, "refined")) {
-        return {meshed, session, std::move(places)};
+      Attempt found = {meshed, session, crossing.of(session.get<QuadMesh>("refined").mesh)};
+      if (tangled && tangled->places.size() <= found.places.size()) break;
+      const double share = crossing_share(session, "refined", found.places);
+      if (tangled || share <= kTangledResult || !may_be_too_coarse(session, "refined")) {
+        return found;
       }
-      is_tangled = true;
+      tangled = std::move(found);
       scale_lines(stages, kCloser * std::stod(scale.value()));
       continue;
     }
     const bool is_once = stages.refine.option("refine-rounds").value() == "0";
-    if (is_once || trial == kCloserPlaces + times_everywhere) throw *miss;
+    if (is_once || trial == kCloserPlaces + times_everywhere) {
+      if (tangled) break;
+      throw *miss;
+    }
     if (trial < kCloserPlaces) {
       session.say(
           fmt::format("tracing closer lines around {} places that dividing cells does not bring "
@@ -270,6 +274,10 @@ Attempt trace_within(Session& session, const GoalStages& stages, CrossingPlaces&
       scale_lines(stages, kCloser * std::stod(scale.value()));
     }
   }
+  // What was made anew is no better, or not within the tolerance.
+  keep_fitted(tangled->meshed, stages);
+  tangled->done.keep(stages.refine);
+  return *tangled;
 }
 
 /// Vertices or faces that dividing cells is to add to those that lines give.

@@ -20,7 +20,7 @@ namespace {
 constexpr double kSuspect = 0.04;
 constexpr double kSeen = 0.06;
 /// Largest distance, in the same, from which on a part of the shape is lost.
-constexpr double kLost = 0.8;
+constexpr double kShapeLost = 0.8;
 /// Share of the faces that cross, from which on cells are no longer in order, and from which on
 /// distances from them say nothing; that of another result which is much less, as a share of it;
 /// and most there may be in one that shows a shape which lines miss.
@@ -89,8 +89,8 @@ Faults faults_of(const Session& session, const Goal& goal, double samples = kSam
 }
 
 bool is_too_coarse(const Faults& faults) {
-  return faults.distance > kSuspect || faults.largest > kLost || faults.crossing > kManyCross ||
-         faults.missing > kFarOff;
+  return faults.distance > kSuspect || faults.largest > kShapeLost ||
+         faults.crossing > kManyCross || faults.missing > kFarOff;
 }
 
 /// Whether one of the faults is much less, and none is more. Where lines are very much farther off
@@ -103,7 +103,7 @@ bool is_much_better(const Faults& other, const Faults& faults) {
   const bool is_enough = faults.distance > kSeen || other.odd <= faults.odd;
   const double share = is_enough ? kMuchLess : kVeryMuchLess;
   const bool is_nearer = other.distance < share * faults.distance;
-  const bool is_found = faults.largest > kLost && other.largest < kMuchLess * faults.largest;
+  const bool is_found = faults.largest > kShapeLost && other.largest < kMuchLess * faults.largest;
   const bool is_as_wanted = faults.missing > kFarOff && other.missing < kFarOff / 2;
   const bool is_shape_missed =
       faults.distance > kSeen && other.distance < kVeryMuchLess * faults.distance;
