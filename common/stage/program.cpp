@@ -55,7 +55,7 @@ std::string help_text(const Option& option) {
   const bool is_length = std::holds_alternative<Length*>(option.target) ||
                          std::holds_alternative<std::optional<Length>*>(option.target);
   const auto limit = [&](double value) {
-    return is_length ? Length{value, true}.to_string() : fmt::format("{}", value);
+    return is_length ? fmt::format("{:g}%", 100 * value) : fmt::format("{}", value);
   };
   std::string text = option.help;
   if (std::isfinite(option.min) && std::isfinite(option.max)) {

@@ -79,23 +79,30 @@ std::optional<Moves> merging_moves(const PolygonGraph& graph, const Chord& chord
 
 std::optional<Chord> follow_chord(const PolygonGraph& graph, Index dart, std::size_t most) {
   const DartGraph& g = graph.graph();
-  std::vector<Index> visited = {graph.name_of_cell(dart)};
   Chord chord;
-  for (Index d = dart;; d = g.next(g.next(DartGraph::opposite(d)))) {
+  chord.starts_outside = graph.is_outer(dart);
+  const bool starts_in_quad = !chord.starts_outside && graph.cell(dart).size() == 4;
+  std::vector<Index> visited;
+  if (!chord.starts_outside) visited.push_back(graph.name_of_cell(dart));
+  for (Index d = dart;;) {
     chord.rungs.push_back(d);
     if (chord.rungs.size() > most) return std::nullopt;
     const Index across = DartGraph::opposite(d);
-    if (graph.is_outer(across)) {
-      chord.ends_outside = true;
-      return chord;
-    }
-    const DartLoop cell = graph.cell(across);
+    chord.ends_outside = graph.is_outer(across);
+    if (chord.ends_outside) break;
+    const std::size_t sides = graph.cell(across).size();
+    const Index next = g.next(g.next(across));
+    chord.is_closed = starts_in_quad && sides == 4 && next == dart;
+    if (chord.is_closed) return chord;
     const Index name = graph.name_of_cell(across);
     if (std::find(visited.begin(), visited.end(), name) != visited.end()) return std::nullopt;
-    if (cell.size() == 3 || cell.size() == 5) return chord;
-    if (cell.size() != 4) return std::nullopt;
+    if (sides == 3 || sides == 5) break;
+    if (sides != 4) return std::nullopt;
     visited.push_back(name);
+    d = next;
   }
+  if (starts_in_quad) return std::nullopt;
+  return chord;
 }
 
 bool can_halve(const PolygonGraph& graph, Index dart) {
@@ -121,13 +128,15 @@ double split_gain(const PolygonGraph& graph, const Chord& chord) {
     if (!can_halve(graph, rung) || is_between_triangles(graph, rung)) return kNever;
   }
   double gain = 0;
-  for (std::size_t k = 0; k < chord.rungs.size(); ++k) {
-    const Index rung = chord.rungs[k];
-    const Index in = k == 0 ? kNone : DartGraph::opposite(chord.rungs[k - 1]);
-    gain += halving_gain(graph, in, rung);
+  Index before = chord.is_closed ? chord.rungs.back() : kNone;
+  for (const Index rung : chord.rungs) {
+    const bool is_outside = chord.starts_outside && before == kNone;
+    const Index in = before == kNone ? kNone : DartGraph::opposite(before);
+    if (!is_outside) gain += halving_gain(graph, in, rung);
     if (!(gain > kNever)) return kNever;
+    before = rung;
   }
-  if (!chord.ends_outside) {
+  if (!chord.ends_outside && !chord.is_closed) {
     gain += halving_gain(graph, kNone, DartGraph::opposite(chord.rungs.back()));
   }
   return gain;
@@ -140,18 +149,25 @@ void split_strip(PolygonGraph& graph, const Chord& chord) {
       graph.connect(leaving, g.next(g.next(g.next(leaving))));
     }
   };
+  Index first = kNone;   // dart that leaves the first new node into the cell it came from
   Index behind = kNone;  // dart that leaves the last new node into the cell ahead
   for (const Index rung : chord.rungs) {
     const Index leaving = graph.split(rung, 0.5);
     const Index ahead = DartGraph::opposite(g.prev(leaving));
-    if (behind == kNone) {
-      connect_across(leaving);
-    } else {
+    if (behind != kNone) {
       graph.connect(behind, leaving);
+    } else if (chord.is_closed) {
+      first = leaving;
+    } else if (!chord.starts_outside) {
+      connect_across(leaving);
     }
     behind = ahead;
   }
-  if (!chord.ends_outside) connect_across(behind);
+  if (chord.is_closed) {
+    graph.connect(behind, first);
+  } else if (!chord.ends_outside) {
+    connect_across(behind);
+  }
 }
 
 double collapse_price(const PolygonGraph& graph, const Chord& chord, const EdgeLength& wanted) {
@@ -164,7 +180,7 @@ double collapse_price(const PolygonGraph& graph, const Chord& chord, const EdgeL
 }
 
 double collapse_gain(const PolygonGraph& graph, const Chord& chord) {
-  if (chord.ends_outside) return kNever;
+  if (chord.starts_outside || chord.ends_outside) return kNever;
   const std::optional<Moves> moves = merging_moves(graph, chord);
   if (!moves) return kNever;
   std::vector<Index> ends;
@@ -202,6 +218,25 @@ std::size_t collapse_strip(PolygonGraph& graph, const Chord& chord) {
     ++done;
   }
   return done;
+}
+
+bool claim_strip(const PolygonGraph& graph, const Chord& chord, bool all, ClaimedNodes& claimed) {
+  const DartGraph& g = graph.graph();
+  std::vector<Index> cells;
+  for (const Index rung : chord.rungs) {
+    // Where nothing has touched the ends, the rung and the cells at it are what they were.
+    if (claimed.has(g.from(rung)) || claimed.has(g.to(rung))) return false;
+    const std::vector<Index> sides = {rung, DartGraph::opposite(rung)};
+    const std::vector<Index> beside = all ? cells_around(graph, sides) : sides;
+    cells.insert(cells.end(), beside.begin(), beside.end());
+  }
+  DartLoop corners;
+  for (const Index dart : cells) {
+    if (graph.is_hole(dart)) continue;
+    const DartLoop cell = graph.cell(dart);
+    corners.insert(corners.end(), cell.begin(), cell.end());
+  }
+  return claimed.claim(corners);
 }
 
 }  // namespace strake

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "stages/mesh/claimed_nodes.h"
 #include "stages/mesh/polygon_graph.h"
 
 namespace strake {
@@ -11,17 +12,20 @@ namespace strake {
 /// Wanted length of an edge, model units.
 using EdgeLength = std::function<double(Index dart)>;
 
-/// A straight way through quads from one odd face (of three or five sides) to another or to the
-/// boundary.
+/// A straight way through quads: from one odd face (of three or five sides) or the boundary to
+/// another, or back to its start.
 struct Chord {
   /// Edges crossed, in order; each dart has the cell that is left on its left.
   std::vector<Index> rungs;
-  bool ends_outside = false;  ///< the last rung is a boundary edge
+  bool starts_outside = false;  ///< the first rung is a boundary edge
+  bool ends_outside = false;    ///< the last one is
+  bool is_closed = false;       ///< the last quad is left across the first rung
 };
 
-/// Follows the way out of an odd face across one of its edges.
+/// Follows the way out of a cell, or of what is outside, across one of its edges.
 /// \param most  longest way, in rungs
-/// \return nothing where it crosses itself, is too long or ends at a larger face
+/// \return nothing where it crosses itself, is too long, ends at a larger face, or starts in a quad
+///         and does not come back
 std::optional<Chord> follow_chord(const PolygonGraph& graph, Index dart, std::size_t most);
 
 /// Whether an edge can be halved and its middle joined to the corners across from it in the two odd
@@ -43,5 +47,9 @@ double collapse_gain(const PolygonGraph& graph, const Chord& chord);
 /// \return rungs contracted; fewer than there are where one would change the topology. The faces
 /// stay a sound mesh then, too.
 std::size_t collapse_strip(PolygonGraph& graph, const Chord& chord);
+
+/// Takes the corners of the cells along a chord, or of all cells at its rungs.
+/// \return false where one has been taken before
+bool claim_strip(const PolygonGraph& graph, const Chord& chord, bool all, ClaimedNodes& claimed);
 
 }  // namespace strake

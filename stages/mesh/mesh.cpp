@@ -21,6 +21,7 @@
 #include "stages/mesh/pure_quads.h"
 #include "stages/mesh/regularise.h"
 #include "stages/mesh/simplify.h"
+#include "stages/mesh/strip_count.h"
 
 namespace strake {
 namespace {
@@ -219,6 +220,7 @@ struct Cells {
   PartitionCounts divided;
   PairingCounts paired;
   RegularisingCounts regularised;
+  StripCounts strips = {};
   Index joined = 0;
   Index cut_pieces = 0;
   Index split_features = 0;
@@ -260,11 +262,16 @@ Cells form_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions& o
   cells.divided = partition(cells.graph, most_sides(options), &surface);
   cells.redrawn_flats = redraw_flats(cells.graph);
   observer.report("pairing odd faces", 0.9);
-  cells.paired = pair_odd_faces(
-      cells.graph, [&](Index dart) { return wanted_length(mesh, lines, cells.graph, dart); },
-      options.odd_price, &surface);
+  const auto wanted = [&](Index dart) { return wanted_length(mesh, lines, cells.graph, dart); };
+  cells.paired = pair_odd_faces(cells.graph, wanted, options.odd_price, &surface);
   if (options.pure_quads) cells.joined = join_odd_faces(cells.graph);
   cells.regularised = regularise(cells.graph, options.valence_price, &surface);
+  if (options.strip_vertices > 0) {
+    cells.strips = meet_vertex_count(cells.graph, wanted, options.odd_price,
+                                     static_cast<Index>(options.strip_vertices));
+    // Strips that cannot be taken out in whole leave odd faces.
+    if (options.pure_quads) cells.joined += join_odd_faces(cells.graph);
+  }
   return cells;
 }
 
@@ -308,6 +315,8 @@ MeshResult mesh_lines(const TriMesh& mesh, const LineSet& lines, const MeshOptio
   report.set("mesh.collapsed_strips", static_cast<std::int64_t>(cells.paired.collapsed_strips));
   report.set("mesh.redivided_quads", static_cast<std::int64_t>(cells.regularised.divided_patches));
   report.set("mesh.closed_quads", static_cast<std::int64_t>(cells.regularised.closed_quads));
+  report.set("mesh.strips_split_for_count", static_cast<std::int64_t>(cells.strips.split));
+  report.set("mesh.strips_collapsed_for_count", static_cast<std::int64_t>(cells.strips.collapsed));
   report.set("mesh.joined_odd_faces", static_cast<std::int64_t>(cells.joined));
   check_result(mesh, result.quads.mesh, static_cast<Index>(options.max_sides), report);
   if (options.pure_quads && analyse(result.quads.mesh).quads != result.quads.mesh.face_count()) {

@@ -36,6 +36,13 @@ OptionList MeshOptions::declare() {
        .target = &pure_quads,
        .unit = "",
        .help = "Make every face a quad, at the price of more vertices of valence 3 and 5."},
+      {.name = "strip-vertices",
+       .target = &strip_vertices,
+       .unit = "",
+       .help = "Come nearer to this number of vertices by splitting strips of quads, or by taking "
+               "them out; 0 leaves what the lines give. strake remesh sets it for a wanted count.",
+       .min = 0,
+       .max = 2e9},
   };
 }
 

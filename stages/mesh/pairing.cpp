@@ -136,27 +136,8 @@ class Pairing {
   [[nodiscard]] bool claim(const Change& change) {
     return change.chord.rungs.empty()
                ? claimed_.claim(change.patch.outline)
-               : claim_cells(change.chord, change.kind == ChangeKind::collapse_strip);
-  }
-
-  /// Takes the corners of the cells along a chord, or of all cells at its rungs.
-  [[nodiscard]] bool claim_cells(const Chord& chord, bool all) {
-    const DartGraph& g = graph_.graph();
-    std::vector<Index> cells;
-    for (const Index rung : chord.rungs) {
-      // Where nothing has touched the ends, the rung and the cells at it are what they were.
-      if (claimed_.has(g.from(rung)) || claimed_.has(g.to(rung))) return false;
-      const std::vector<Index> sides = {rung, DartGraph::opposite(rung)};
-      const std::vector<Index> beside = all ? cells_around(graph_, sides) : sides;
-      cells.insert(cells.end(), beside.begin(), beside.end());
-    }
-    DartLoop corners;
-    for (const Index dart : cells) {
-      if (graph_.is_hole(dart)) continue;
-      const DartLoop cell = graph_.cell(dart);
-      corners.insert(corners.end(), cell.begin(), cell.end());
-    }
-    return claimed_.claim(corners);
+               : claim_strip(graph_, change.chord, change.kind == ChangeKind::collapse_strip,
+                             claimed_);
   }
 
   void apply(const Change& change) {

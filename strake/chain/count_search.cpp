@@ -21,8 +21,8 @@ bool CountSearch::is_good_enough(std::int64_t count) const {
   return error(count) <= (static_cast<double>(count) < target_ ? kMostMissing : kMostExcess);
 }
 
-double CountSearch::excess(const Trial& trial) const {
-  return std::log(std::max<double>(static_cast<double>(trial.count), 1) / target_);
+double CountSearch::excess(std::int64_t count) const {
+  return std::log(std::max<double>(static_cast<double>(count), 1) / target_);
 }
 
 void CountSearch::record(double scale, std::int64_t count) { trials_.push_back({scale, count}); }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -39,11 +40,14 @@ class CountSearch {
   [[nodiscard]] std::size_t trial_count() const { return trials_.size(); }
   /// Relative distance of a count from the target.
   [[nodiscard]] double error(std::int64_t count) const;
+  /// How far its ratio to the target is from one: half as many are as far off as twice as many.
+  [[nodiscard]] double ratio_miss(std::int64_t count) const { return std::abs(excess(count)); }
   [[nodiscard]] bool is_good_enough(std::int64_t count) const;
 
  private:
   /// log(count / target): positive where there are too many.
-  [[nodiscard]] double excess(const Trial& trial) const;
+  [[nodiscard]] double excess(std::int64_t count) const;
+  [[nodiscard]] double excess(const Trial& trial) const { return excess(trial.count); }
   /// Two trials next to each other in scale, of which the first has too many and the second too
   /// few: the nearest ones, as counts can go up and down again.
   [[nodiscard]] std::optional<std::pair<Trial, Trial>> nearest_bracket() const;

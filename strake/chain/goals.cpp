@@ -69,12 +69,16 @@ constexpr int kPatience = 5;
 constexpr int kPatienceWithinTolerance = 2;
 /// Share of the distances of lines around faces that cross.
 constexpr double kCloserWhereCrossing = 0.7;
-/// Share of those around details that lines miss.
+/// Share of the distances around details that lines miss.
 constexpr double kCloserAtDetails = 0.5;
 /// Corners of features for each vertex or face wanted, from which on they may be too many, and how
 /// far they may come to lie off features then.
 constexpr double kManyCorners = 0.25;
 constexpr const char* kAnyDistance = "1";
+/// Share of a count up to which strips of quads make up for what lines give too little or too much:
+/// at once, and where no scale of distances comes nearer.
+constexpr double kWithinStrips = 0.08;
+constexpr double kWithinStripsAtLast = 0.5;
 
 DensityMatch match_density(const Session& session, const GoalStages& stages) {
   Session plain = session;
@@ -133,18 +137,30 @@ bool goes_by_errors(const Session& session, const GoalStages& stages) {
   return !only_quads(stages) && !session.has("density");
 }
 
-/// Looks for the scale of distances that gives the count, from the present one on. Where all are
-/// too far above or below it, as on coarse meshes, takes what is not too far below where cells can
-/// be divided.
-void search_scale(Session& session, const GoalStages& stages, const LineAim& aim) {
+/// Looks for the scale of distances that gives the count, from the present one on; what is missing
+/// or too much in the end strips of quads make up for. Where all are too far above or below it, as
+/// on coarse meshes, takes what is not too far below where cells can be divided.
+/// \param within_strips  share of the count up to which strips make up for it at once
+/// \return whether they do
+bool search_scale(Session& session, const GoalStages& stages, const LineAim& aim,
+                  double within_strips = kWithinStrips) {
   const Option& option = stages.trace.option("spacing-scale");
   CountSearch search(aim.count, std::stod(option.value()), option.min, option.max);
   struct Found {
     Session session;
-    CountSearch::Trial trial;
+    double scale;
+    std::int64_t count;
+    bool has_strips;
   };
   std::optional<Found> best;
   std::optional<Found> below;
+  const auto use_strips = [&] {
+    mesh_with_strips(session, stages, aim);
+    const std::int64_t count = count_of(session, "quads", aim.counted);
+    session.say(
+        fmt::format("{} {} with strips of quads split or taken out", count, name_of(aim.counted)));
+    return count;
+  };
   while (const std::optional<double> scale = search.next()) {
     option.parse_into(fmt::format("{}", *scale));
     try {
@@ -154,20 +170,28 @@ void search_scale(Session& session, const GoalStages& stages, const LineAim& aim
       session.say(std::string("warning: gave up correcting the count: ") + error.what());
       break;
     }
-    const std::int64_t count = count_of(session, "quads", aim.counted);
+    std::int64_t count = count_of(session, "quads", aim.counted);
     session.say(fmt::format("{} {} so far, {} wanted", count, name_of(aim.counted), aim.wanted));
     search.record(*scale, count);
-    if (search.best().scale == *scale) best = {session, search.best()};
+    const bool has_strips = !search.is_good_enough(count) && search.error(count) <= within_strips;
+    if (has_strips) count = use_strips();
+    if (!best || search.ratio_miss(count) < search.ratio_miss(best->count)) {
+      best = {session, *scale, count, has_strips};
+    }
+    if (search.is_good_enough(count)) break;
     const bool can_be_divided =
         count <= aim.count &&
         static_cast<double>(count) >= kLeastToDivide * static_cast<double>(aim.count);
-    if (can_be_divided && (!below || count > below->trial.count))
-      below = {session, {*scale, count}};
+    if (can_be_divided && (!below || count > below->count))
+      below = {session, *scale, count, has_strips};
   }
-  const bool is_missed = search.error(search.best().count) > kCountTolerance;
+  const bool is_missed = search.error(best->count) > kCountTolerance;
   const Found& chosen = is_missed && below && goes_by_errors(session, stages) ? *below : *best;
   session = chosen.session;
-  option.parse_into(fmt::format("{}", chosen.trial.scale));
+  option.parse_into(fmt::format("{}", chosen.scale));
+  if (!is_missed || search.error(chosen.count) > kWithinStripsAtLast) return chosen.has_strips;
+  use_strips();
+  return true;
 }
 
 /// Looks for the count, and feeds errors back again where the lines found follow the density less.
@@ -314,6 +338,30 @@ Attempt fit_to_count(Session session, const GoalStages& stages, const LineAim& a
   return {meshed, session, std::move(places)};
 }
 
+void keep_attempt(Attempt& attempt, const GoalStages& stages) {
+  attempt.meshed.keep(stages.trace);
+  attempt.meshed.keep(stages.mesh);
+  if (attempt.done.has("refined")) attempt.done.keep(stages.refine);
+  attempt.done.keep(stages.fit);
+}
+
+/// Fits what gives a count. Where faces cross then, which strips hardly change, tries what lines
+/// alone give.
+Attempt fit_either(Session session, const GoalStages& stages, const LineAim& aim,
+                   CrossingPlaces& crossing, bool has_strips) {
+  Attempt first = fit_to_count(session, stages, aim, crossing);
+  if (!has_strips || first.places.empty()) return first;
+  session.say(fmt::format("{} faces cross; looking for other lines", first.places.size()));
+  const Option& scale = stages.trace.option("spacing-scale");
+  const std::string scale_before = scale.value();
+  search_scale(session, stages, aim, 0);
+  Attempt other = fit_to_count(session, stages, aim, crossing);
+  if (other.places.size() < first.places.size()) return other;
+  scale.parse_into(scale_before);
+  keep_attempt(first, stages);
+  return first;
+}
+
 LineAim aim_of(const Session& session, const GoalStages& stages, Counted counted,
                std::int64_t wanted) {
   const double left = goes_by_errors(session, stages) ? kLeftForWorst : 0;
@@ -329,6 +377,7 @@ bool is_exceeded(const Session& session, const LineAim& aim) {
 /// Traces, feeds errors back, looks for the count, fits, and traces closer where faces cross.
 void trace_to_count(Session& session, const GoalStages& stages, const LineAim& aim,
                     std::optional<std::int64_t> feedback_rounds) {
+  bool has_strips = false;
   if (session.has("density") && !feedback_rounds) {
     const DensityMatch match = match_density(session, stages);
     follow_density(session, stages, match, aim);
@@ -338,7 +387,7 @@ void trace_to_count(Session& session, const GoalStages& stages, const LineAim& a
       trace_and_mesh(session, stages);
       feed_back(session, stages, aim);
     }
-    search_scale(session, stages, aim);
+    has_strips = search_scale(session, stages, aim);
   }
   // Corners of features stay where that is possible at this count.
   const Option& distance = stages.mesh.option("corner-distance");
@@ -350,39 +399,35 @@ void trace_to_count(Session& session, const GoalStages& stages, const LineAim& a
     const std::string scale_before = scale.value();
     merging.emplace(distance, kAnyDistance);
     Session merged = session;
-    search_scale(merged, stages, aim);
+    const bool merged_has_strips = search_scale(merged, stages, aim);
     if (aim.ratio_miss(count_of(merged, "quads", aim.counted)) <
         aim.ratio_miss(count_of(session, "quads", aim.counted))) {
       session = std::move(merged);
+      has_strips = merged_has_strips;
     } else {
       merging.reset();
       scale.parse_into(scale_before);
     }
   }
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
-  const Attempt first = fit_to_count(session, stages, aim, crossing);
+  const Attempt first = fit_either(session, stages, aim, crossing, has_strips);
   const double first_miss = aim.miss(count_of(first.done, result_port(first.done), aim.counted));
-  const auto closer_by = [&](double factor) {
-    return [&, factor](Session next, const std::vector<Vec3>& places) {
+  const auto closer_by = [&](double factor, double within_strips) {
+    return [&, factor, within_strips](Session next, const std::vector<Vec3>& places) {
       want_relatively_closer(next, places, factor);
-      search_scale(next, stages, aim);
+      search_scale(next, stages, aim, within_strips);
       Attempt attempt = fit_to_count(next, stages, aim, crossing);
       const double miss = aim.miss(count_of(attempt.done, result_port(attempt.done), aim.counted));
       attempt.misses_goal = miss > std::max(first_miss, kCountTolerance);
       return attempt;
     };
   };
-  const auto keep = [&](Attempt& attempt) {
-    attempt.meshed.keep(stages.trace);
-    attempt.meshed.keep(stages.mesh);
-    if (attempt.done.has("refined")) attempt.done.keep(stages.refine);
-    attempt.done.keep(stages.fit);
-  };
+  const auto keep = [&](Attempt& attempt) { keep_attempt(attempt, stages); };
   const Index faces = first.done.get<QuadMesh>("fitted").mesh.face_count();
-  Attempt best = part_faces(first, faces, kPatience, closer_by(kCloserWhereCrossing), keep);
+  Attempt best = part_faces(first, faces, kPatience, closer_by(kCloserWhereCrossing, 0), keep);
   // Where lines miss the count they have no room for details.
   if (first_miss <= kCountTolerance) {
-    best = regain_details(best, closer_by(kCloserAtDetails), keep);
+    best = regain_details(best, closer_by(kCloserAtDetails, kWithinStrips), keep);
   }
   session = best.done;
 }

@@ -68,6 +68,15 @@ void trace_and_mesh(Session& session, const GoalStages& stages) {
   session.run(stages.mesh);
 }
 
+void mesh_with_strips(Session& session, const GoalStages& stages, const LineAim& aim) {
+  const std::int64_t missing = aim.count - count_of(session, "quads", aim.counted);
+  // A strip has about as many quads as rungs.
+  const OtherValue vertices(
+      stages.mesh.option("strip-vertices"),
+      std::to_string(count_of(session, "quads", Counted::vertices) + missing));
+  session.run(stages.mesh);
+}
+
 void keep_fitted(Session& session, const GoalStages& stages) {
   for (const Stage* stage : {&stages.trace, &stages.mesh, &stages.fit}) session.keep(*stage);
 }
