@@ -123,6 +123,8 @@ double split_price(const PolygonGraph& graph, const Chord& chord, const EdgeLeng
 }
 
 double split_gain(const PolygonGraph& graph, const Chord& chord) {
+  // The middles of two rungs around two quads would be joined twice.
+  if (chord.is_closed && chord.rungs.size() < 3) return kNever;
   if (chord.rungs.size() == 1) {
     const Index rung = chord.rungs.front();
     if (!can_halve(graph, rung) || is_between_triangles(graph, rung)) return kNever;

@@ -13,7 +13,7 @@ struct MeshOptions {
   std::int64_t max_sides = 5;       ///< of a face
   double odd_price = 1;             ///< what a face that is no quad costs; 0 leaves them
   double valence_price = 1;         ///< what an edge too many or too few at a vertex costs
-  double corner_distance = 0.02;    ///< of merged corners from features, in wanted edge lengths
+  double corner_distance = 0.004;   ///< of merged corners from features, in wanted edge lengths
   bool pure_quads = false;          ///< make every face a quad
   std::int64_t strip_vertices = 0;  ///< what strips are split or taken out for; 0 leaves them
 

@@ -13,9 +13,12 @@ namespace {
 constexpr int kMostRounds = 4;
 /// Longer strips are left: finding that a way does not meet itself takes the square of its length.
 constexpr std::size_t kLongestStrip = 400;
-/// Most that a strip may cost, for each of its rungs. One of the wanted width costs 0.3 to split
-/// and 0.6 to take out.
+constexpr double kNever = std::numeric_limits<double>::infinity();
+/// Most that a strip may cost by its shape, for each of its rungs. One of the wanted width costs
+/// 0.3 to split and 0.6 to take out.
 constexpr double kMostPerRung = 1;
+/// Largest error of a rung that counts, in mean ones. A mean one is worth as much as a price of 1.
+constexpr double kMostError = 4;
 
 Index count_vertices(const PolygonGraph& graph) {
   const DartGraph& g = graph.graph();
@@ -24,6 +27,20 @@ Index count_vertices(const PolygonGraph& graph) {
     if (g.is_alive(d)) seen[g.from(d)] = 1;
   }
   return static_cast<Index>(std::count(seen.begin(), seen.end(), 1));
+}
+
+/// Of the lines of all edges: how far they are from the straight way.
+double mean_square_bend(const PolygonGraph& graph) {
+  const DartGraph& g = graph.graph();
+  double sum = 0;
+  Index count = 0;
+  for (Index d = 0; d < g.dart_count(); d += 2) {
+    if (!g.is_alive(d)) continue;
+    const double bend = graph.bend(d).distance;
+    sum += bend * bend;
+    ++count;
+  }
+  return std::max(sum / count, std::numeric_limits<double>::min());
 }
 
 /// Every strip once: each edge is a rung of one at most.
@@ -60,7 +77,10 @@ struct Offer {
 class StripCount {
  public:
   StripCount(PolygonGraph& graph, const EdgeLength& wanted, double odd_price)
-      : graph_(graph), wanted_(wanted), odd_price_(odd_price) {}
+      : graph_(graph),
+        wanted_(wanted),
+        odd_price_(odd_price),
+        mean_square_bend_(mean_square_bend(graph)) {}
 
   StripCounts run(Index vertices) {
     for (int round = 0; round < kMostRounds; ++round) {
@@ -76,6 +96,16 @@ class StripCount {
   [[nodiscard]] double end_bonus(Index dart, bool taken_out) const {
     return !taken_out && graph_.cell(dart).size() == 3 ? -odd_price_ : odd_price_;
   }
+  /// Of all rungs: squared distances of lines from their straight edges, in mean ones.
+  [[nodiscard]] double errors(const Chord& strip) const {
+    double sum = 0;
+    for (const Index rung : strip.rungs) {
+      const double bend = graph_.bend(rung).distance;
+      sum += std::min(kMostError, bend * bend / mean_square_bend_);
+    }
+    return sum;
+  }
+
   [[nodiscard]] double cost(const Chord& strip, bool taken_out) const {
     const auto rungs = static_cast<double>(strip.rungs.size());
     double bonus = 0;
@@ -86,9 +116,11 @@ class StripCount {
     }
     const double price =
         taken_out ? collapse_price(graph_, strip, wanted_) : split_price(graph_, strip, wanted_);
-    if (price - bonus > kMostPerRung * rungs) return std::numeric_limits<double>::infinity();
+    if (price - bonus > kMostPerRung * rungs) return kNever;
     const double gain = taken_out ? collapse_gain(graph_, strip) : split_gain(graph_, strip);
-    return (price - bonus - gain) / rungs;
+    const double shape = (price - bonus - gain) / rungs;
+    if (!(shape <= kMostPerRung)) return kNever;
+    return shape + (taken_out ? 1 : -1) * errors(strip) / rungs;
   }
 
   /// What can be done, the cheapest first.
@@ -96,7 +128,7 @@ class StripCount {
     std::vector<Offer> found;
     for (Chord& strip : find_strips(graph_)) {
       const double price = cost(strip, taken_out);
-      if (price <= kMostPerRung) found.push_back({std::move(strip), price});
+      if (price < kNever) found.push_back({std::move(strip), price});
     }
     std::stable_sort(found.begin(), found.end(),
                      [](const Offer& a, const Offer& b) { return a.cost < b.cost; });
@@ -129,6 +161,7 @@ class StripCount {
   PolygonGraph& graph_;
   const EdgeLength& wanted_;
   double odd_price_;
+  double mean_square_bend_;
   StripCounts counts_;
 };
 

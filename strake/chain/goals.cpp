@@ -76,7 +76,10 @@ constexpr double kCloserAtDetails = 0.5;
 constexpr double kManyCorners = 0.25;
 constexpr const char* kAnyDistance = "1";
 /// Share of a count up to which strips of quads make up for what lines give too little or too much:
-/// at once, and where no scale of distances comes nearer.
+/// in the first trials, later, and where no scale of distances comes nearer. Lines at the right
+/// distances are better, where they come at once.
+constexpr double kWithinFewStrips = 0.035;
+constexpr std::size_t kTrialsOfLines = 2;
 constexpr double kWithinStrips = 0.08;
 constexpr double kWithinStripsAtLast = 0.5;
 
@@ -140,10 +143,10 @@ bool goes_by_errors(const Session& session, const GoalStages& stages) {
 /// Looks for the scale of distances that gives the count, from the present one on; what is missing
 /// or too much in the end strips of quads make up for. Where all are too far above or below it, as
 /// on coarse meshes, takes what is not too far below where cells can be divided.
-/// \param within_strips  share of the count up to which strips make up for it at once
+/// \param with_strips  false: only where nothing else comes near the count
 /// \return whether they do
 bool search_scale(Session& session, const GoalStages& stages, const LineAim& aim,
-                  double within_strips = kWithinStrips) {
+                  bool with_strips = true) {
   const Option& option = stages.trace.option("spacing-scale");
   CountSearch search(aim.count, std::stod(option.value()), option.min, option.max);
   struct Found {
@@ -155,7 +158,11 @@ bool search_scale(Session& session, const GoalStages& stages, const LineAim& aim
   std::optional<Found> best;
   std::optional<Found> below;
   const auto use_strips = [&] {
-    mesh_with_strips(session, stages, aim);
+    try {
+      mesh_with_strips(session, stages, aim);
+    } catch (const AlgorithmError& error) {
+      session.say(std::string("warning: left strips of quads as they were: ") + error.what());
+    }
     const std::int64_t count = count_of(session, "quads", aim.counted);
     session.say(
         fmt::format("{} {} with strips of quads split or taken out", count, name_of(aim.counted)));
@@ -173,7 +180,9 @@ bool search_scale(Session& session, const GoalStages& stages, const LineAim& aim
     std::int64_t count = count_of(session, "quads", aim.counted);
     session.say(fmt::format("{} {} so far, {} wanted", count, name_of(aim.counted), aim.wanted));
     search.record(*scale, count);
-    const bool has_strips = !search.is_good_enough(count) && search.error(count) <= within_strips;
+    const double within = search.trial_count() > kTrialsOfLines ? kWithinStrips : kWithinFewStrips;
+    const bool has_strips =
+        with_strips && !search.is_good_enough(count) && search.error(count) <= within;
     if (has_strips) count = use_strips();
     if (!best || search.ratio_miss(count) < search.ratio_miss(best->count)) {
       best = {session, *scale, count, has_strips};
@@ -354,7 +363,7 @@ Attempt fit_either(Session session, const GoalStages& stages, const LineAim& aim
   session.say(fmt::format("{} faces cross; looking for other lines", first.places.size()));
   const Option& scale = stages.trace.option("spacing-scale");
   const std::string scale_before = scale.value();
-  search_scale(session, stages, aim, 0);
+  search_scale(session, stages, aim, false);
   Attempt other = fit_to_count(session, stages, aim, crossing);
   if (other.places.size() < first.places.size()) return other;
   scale.parse_into(scale_before);
@@ -412,10 +421,10 @@ void trace_to_count(Session& session, const GoalStages& stages, const LineAim& a
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
   const Attempt first = fit_either(session, stages, aim, crossing, has_strips);
   const double first_miss = aim.miss(count_of(first.done, result_port(first.done), aim.counted));
-  const auto closer_by = [&](double factor, double within_strips) {
-    return [&, factor, within_strips](Session next, const std::vector<Vec3>& places) {
+  const auto closer_by = [&](double factor, bool with_strips) {
+    return [&, factor, with_strips](Session next, const std::vector<Vec3>& places) {
       want_relatively_closer(next, places, factor);
-      search_scale(next, stages, aim, within_strips);
+      search_scale(next, stages, aim, with_strips);
       Attempt attempt = fit_to_count(next, stages, aim, crossing);
       const double miss = aim.miss(count_of(attempt.done, result_port(attempt.done), aim.counted));
       attempt.misses_goal = miss > std::max(first_miss, kCountTolerance);
@@ -424,10 +433,10 @@ void trace_to_count(Session& session, const GoalStages& stages, const LineAim& a
   };
   const auto keep = [&](Attempt& attempt) { keep_attempt(attempt, stages); };
   const Index faces = first.done.get<QuadMesh>("fitted").mesh.face_count();
-  Attempt best = part_faces(first, faces, kPatience, closer_by(kCloserWhereCrossing, 0), keep);
+  Attempt best = part_faces(first, faces, kPatience, closer_by(kCloserWhereCrossing, false), keep);
   // Where lines miss the count they have no room for details.
   if (first_miss <= kCountTolerance) {
-    best = regain_details(best, closer_by(kCloserAtDetails, kWithinStrips), keep);
+    best = regain_details(best, closer_by(kCloserAtDetails, true), keep);
   }
   session = best.done;
 }

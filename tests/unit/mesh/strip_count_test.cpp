@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "common/geometry/poly_topology/poly_topology.h"
 #include "common/geometry/samples/samples.h"
 #include "tests/support/chain.h"
+#include "tests/support/mesh_support.h"
 #include "tests/unit/mesh/graphs.h"
 #include "tests/unit/mesh/grid_cells.h"
 
@@ -77,6 +79,28 @@ TEST(MeetVertexCount, LeavesWhatNoStripBringsNearer) {
     EXPECT_EQ(counts.split + counts.collapsed, 0) << wanted;
   }
   EXPECT_EQ(places(graph, mesh), before);
+}
+
+TEST(MeetVertexCount, NeverJoinsTheMiddlesOfTwoRungsTwice) {
+  // An octahedron of which only the equator is left: two quads back to back.
+  PolyMesh soup;
+  soup.positions = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  for (Index i = 0; i < 4; ++i) {
+    const Index next = (i + 1) % 4;
+    soup.add_face(std::array<Index, 3>{i, next, 4});
+    soup.add_face(std::array<Index, 3>{next, i, 5});
+  }
+  const TriMesh mesh = support::plain_tri_mesh(soup);
+  const auto is_equator = [](const Vec3& a, const Vec3& b) {
+    return std::abs(a.z()) < 0.5 && std::abs(b.z()) < 0.5;
+  };
+  // Nodes of two edges stay where the kind of line changes.
+  const auto every_other = [&](const Vec3& a, const Vec3& b) {
+    return is_equator(a, b) && (a + b).x() * (a + b).y() > 0;
+  };
+  PolygonGraph graph = cells_of(mesh, is_equator, every_other);
+  ASSERT_EQ(sides(graph), (std::map<std::size_t, int>{{4, 2}}));
+  EXPECT_EQ(meet_vertex_count(graph, unit_length, 1, 6).split, 0);
 }
 
 class CountedSurfaces : public ::testing::TestWithParam<SampleKind> {};
