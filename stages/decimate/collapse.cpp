@@ -16,8 +16,9 @@ namespace strake {
 namespace {
 
 /// Share of the fourth power of an edge that is added to what its collapse costs: in flats, where
-/// nothing else costs anything, short edges go first.
-constexpr double kShortFirst = 1e-7;
+/// nothing else costs anything, short edges go first. So little that long edges that cost nothing
+/// else go before short ones that bend by a few degrees, as in the flutes of a column.
+constexpr double kShortFirst = 1e-10;
 /// An edge may be turned where its quad turns by less along either diagonal.
 constexpr double kFlat = 2 * std::numbers::pi / 180;
 constexpr std::size_t kReported = 1000;  ///< vertices that go from one report to the next

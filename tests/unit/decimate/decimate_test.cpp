@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <vector>
 
 #include "common/geometry/cell_error/cell_error.h"
@@ -78,6 +79,42 @@ TEST(DecimateToQuads, ACubeOfManyFacesIsSixQuads) {
         EXPECT_TRUE(x == 0 || x == 1) << x;
       }
     }
+  }
+}
+
+/// A prism around z, its sides cut across.
+PolyMesh prism(int sides, double radius, double length, int rings) {
+  PolyMesh mesh;
+  for (int j = 0; j <= rings; ++j) {
+    for (int i = 0; i < sides; ++i) {
+      const double angle = 2 * std::numbers::pi * i / sides;
+      mesh.positions.emplace_back(radius * std::cos(angle), radius * std::sin(angle),
+                                  length * j / rings);
+    }
+  }
+  const auto at = [&](int i, int j) { return static_cast<Index>(j * sides + i % sides); };
+  for (int i = 0; i < sides; ++i) {
+    for (int j = 0; j < rings; ++j) {
+      mesh.add_face(std::vector<Index>{at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      mesh.add_face(std::vector<Index>{at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  for (int i = 1; i + 1 < sides; ++i) {
+    mesh.add_face(std::vector<Index>{at(0, 0), at(i + 1, 0), at(i, 0)});
+    mesh.add_face(std::vector<Index>{at(0, rings), at(i, rings), at(i + 1, rings)});
+  }
+  return mesh;
+}
+
+// However long its sides are: what lies in their edges goes before these.
+TEST(DecimateToQuads, APrismOfManyFacesIsExact) {
+  for (const double length : {2.0, 10.0, 50.0}) {
+    const TriMesh mesh = support::import_tri_mesh(prism(24, 1, length, 6));
+    const QuadMesh quads = decimated(mesh, 48);
+    EXPECT_EQ(quads.mesh.vertex_count(), 48);
+    const ErrorMap errors =
+        measure_cells(ComparedSurfaces(mesh, quads), {.rows = 4, .input_step = 0.25});
+    EXPECT_LT(errors.largest, 1e-9 * length) << length;
   }
 }
 
