@@ -202,8 +202,13 @@ void keep_attempt(Attempt& attempt, const GoalStages& stages) {
   attempt.done.keep(stages.fit);
 }
 
+/// Share of the wanted count that the result of an attempt is off by.
+double miss_of(const Attempt& attempt, const LineAim& aim) {
+  return aim.miss(count_of(attempt.done, result_port(attempt.done), aim.counted));
+}
+
 /// Fits what gives a count. Where faces cross then, which strips hardly change, tries what lines
-/// alone give.
+/// alone give; the first result stays where that comes to none, or misses the count.
 Attempt fit_either(Session session, const GoalStages& stages, const LineAim& aim,
                    CrossingPlaces& crossing, bool has_strips) {
   Attempt first = fit_to_count(session, stages, aim, crossing);
@@ -211,9 +216,14 @@ Attempt fit_either(Session session, const GoalStages& stages, const LineAim& aim
   session.say(fmt::format("{} faces cross; looking for other lines", first.places.size()));
   const Option& scale = stages.trace.option("spacing-scale");
   const std::string scale_before = scale.value();
-  search_scale(session, stages, aim, false);
-  Attempt other = fit_to_count(session, stages, aim, crossing);
-  if (other.places.size() < first.places.size()) return other;
+  try {
+    search_scale(session, stages, aim, false);
+    Attempt other = fit_to_count(session, stages, aim, crossing);
+    const bool is_met = miss_of(other, aim) <= std::max(miss_of(first, aim), kCountTolerance);
+    if (is_met && other.places.size() < first.places.size()) return other;
+  } catch (const AlgorithmError& error) {
+    session.say(std::string("warning: kept the first lines: ") + error.what());
+  }
   scale.parse_into(scale_before);
   keep_attempt(first, stages);
   return first;
@@ -257,14 +267,13 @@ void trace_to_count(Session& session, const GoalStages& stages, const LineAim& a
   }
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
   const Attempt first = fit_either(session, stages, aim, crossing, has_strips);
-  const double first_miss = aim.miss(count_of(first.done, result_port(first.done), aim.counted));
+  const double first_miss = miss_of(first, aim);
   const auto closer_by = [&](double factor, bool with_strips) {
     return [&, factor, with_strips](Session next, const std::vector<Vec3>& places) {
       want_relatively_closer(next, places, factor);
       search_scale(next, stages, aim, with_strips);
       Attempt attempt = fit_to_count(next, stages, aim, crossing);
-      const double miss = aim.miss(count_of(attempt.done, result_port(attempt.done), aim.counted));
-      attempt.misses_goal = miss > std::max(first_miss, kCountTolerance);
+      attempt.misses_goal = miss_of(attempt, aim) > std::max(first_miss, kCountTolerance);
       return attempt;
     };
   };
