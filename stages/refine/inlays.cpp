@@ -38,6 +38,9 @@ constexpr double kMostWhole = 0.1;
 /// share of all cells, whatever is more.
 constexpr std::size_t kMostFacesPerCell = 4;
 constexpr double kMostFacesShare = 0.02;
+/// Share of vertices that inlays for faces that cross may add without being thinned out more. What
+/// a count allows is a little more.
+constexpr double kMostAdded = 0.03;
 /// Places of the input whose vertex is searched for over the surface. More are left bare by an
 /// inlay that is wrong altogether; each search would go all over what is bare.
 constexpr std::size_t kMostSearched = 1000;
@@ -147,12 +150,32 @@ class Inlays {
     }
   }
 
-  /// Gives up the inlays that have many faces for what they take the place of.
-  void drop_large() {
-    const auto few = static_cast<std::size_t>(kMostFacesShare * base_.mesh.face_count());
-    std::erase_if(sites_, [&](const Site& site) {
-      return site.inlay.faces.size() > std::max(few, kMostFacesPerCell * site.inlay.cells.size());
-    });
+  /// Thins inlays out by the least of some distances after which no faces cross and there are not
+  /// many more vertices than without any; else by that after which the fewest cross, or of which
+  /// the fewest vertices come. \pre as for `thin`
+  /// \param distance  the first one; then twice as much, up to the tolerance
+  void thin_from(double distance) {
+    const std::vector<Site> whole = sites_;
+    const auto most =
+        static_cast<Index>((1 + kMostAdded) * static_cast<double>(base_.mesh.vertex_count()));
+    using Price = std::pair<Index, std::size_t>;  // vertices too many, faces that cross
+    Price least{std::numeric_limits<Index>::max(), 0};
+    std::vector<Site> best;
+    for (;;) {
+      thin(distance);
+      drop_large();
+      const QuadMesh thinned = with_inlays().quads;
+      const Price price{std::max(0, thinned.mesh.vertex_count() - most),
+                        crossing_.faces_of(thinned.mesh).size()};
+      if (price < least) {
+        least = price;
+        best = sites_;
+      }
+      if (price == Price{} || distance >= proof_.tolerance()) break;
+      distance = std::min(2 * distance, proof_.tolerance());
+      sites_ = whole;
+    }
+    sites_ = std::move(best);
   }
 
   /// Takes vertices out of inlays, fewer around faces that are beyond the tolerance or cross others
@@ -232,6 +255,14 @@ class Inlays {
       return std::ranges::find(site.inlay.outline, v) != site.inlay.outline.end();
     };
     return std::ranges::any_of(base_.mesh.face(cell), is_of_outline);
+  }
+
+  /// Gives up the inlays that have many faces for what they take the place of.
+  void drop_large() {
+    const auto few = static_cast<std::size_t>(kMostFacesShare * base_.mesh.face_count());
+    std::erase_if(sites_, [&](const Site& site) {
+      return site.inlay.faces.size() > std::max(few, kMostFacesPerCell * site.inlay.cells.size());
+    });
   }
 
   void widen(Site& site) const {
@@ -471,8 +502,7 @@ std::vector<char> inlay_crossing(ToleranceProof& proof, CrossingPlaces& crossing
   if (cells.empty() || cells.size() > kMostBad) return {};
   Inlays inlays(proof, quads, crossing, kUncrossed);
   if (!inlays.grow(cells)) inlays.drop_bad_unless_fewer_cross(cells.size());
-  inlays.thin(thinned_by);
-  inlays.drop_large();
+  inlays.thin_from(thinned_by);
   Inlaid result = inlays.result();
   if (!proof.check(ComparedSurfaces(proof.input(), result.quads)).empty()) return {};
   if (crossing.faces_of(result.quads.mesh).size() >= cells.size()) return {};

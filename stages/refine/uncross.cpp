@@ -23,7 +23,7 @@ namespace {
 constexpr const char* kPhase = "replacing faces that cross";
 /// Few samples do to tell how far a result is from the surface.
 constexpr CellSampling kSampling = {.rows = 2, .input_step = 1};
-/// Distance by which inlays are thinned out, in root mean squares of the result's.
+/// Distance by which inlays are thinned out at first, in root mean squares of the result's.
 constexpr double kThinnedBy = 2;
 /// Least tolerance that is proven, of the diagonal: what is exact but for rounding would be cut to
 /// pieces without end. The same as that of refining.

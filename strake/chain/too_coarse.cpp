@@ -28,6 +28,10 @@ constexpr double kManyCross = 0.02;
 constexpr double kTangled = 0.3;
 constexpr double kFewer = 0.25;
 constexpr double kMostCross = 0.1;
+/// Share of the faces that may be odd in a result where none cross, as some do in another one: more
+/// than there, and in all. Even few that cross are of no use to many programs.
+constexpr double kMoreOdd = 0.1;
+constexpr double kFewOdd = 0.15;
 /// Share of a wanted count that a result may be off by.
 constexpr double kFarOff = 0.05;
 /// Share of a distance that is much less than it: of one that is seen, or of a result that has no
@@ -89,8 +93,8 @@ Faults faults_of(const Session& session, const Goal& goal, double samples = kSam
 }
 
 bool is_too_coarse(const Faults& faults) {
-  return faults.distance > kSuspect || faults.largest > kShapeLost ||
-         faults.crossing > kManyCross || faults.missing > kFarOff;
+  return faults.distance > kSuspect || faults.largest > kShapeLost || faults.crossing > 0 ||
+         faults.missing > kFarOff;
 }
 
 /// Whether one of the faults is much less, and none is more. Where lines are very much farther off
@@ -104,6 +108,8 @@ bool is_much_better(const Faults& other, const Faults& faults) {
   const double share = is_enough ? kMuchLess : kVeryMuchLess;
   const bool is_nearer = other.distance < share * faults.distance;
   const bool is_found = faults.largest > kShapeLost && other.largest < kMuchLess * faults.largest;
+  const bool is_clean = faults.crossing > 0 && other.crossing == 0 &&
+                        other.odd <= std::max(faults.odd + kMoreOdd, kFewOdd);
   const bool is_as_wanted = faults.missing > kFarOff && other.missing < kFarOff / 2;
   const bool is_shape_missed =
       faults.distance > kSeen && other.distance < kVeryMuchLess * faults.distance;
@@ -111,7 +117,7 @@ bool is_much_better(const Faults& other, const Faults& faults) {
                                         : other.crossing <= faults.crossing &&
                                               other.missing <= std::max(faults.missing, kFarOff);
   const double farther = is_as_wanted && faults.missing > kMissed ? kMore : kHardlyMore;
-  return (is_nearer || is_found || crosses_less || is_as_wanted) &&
+  return (is_nearer || is_clean || is_found || crosses_less || is_as_wanted) &&
          other.distance <= farther * faults.distance && is_sound;
 }
 

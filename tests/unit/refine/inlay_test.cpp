@@ -466,6 +466,20 @@ TEST(Inlays, MakeFacesThatCrossFewer) {
   }
 }
 
+/// An inlay of the input's own faces has more vertices than the cells that it takes the place of; a
+/// result for a count has no room for them.
+TEST(Inlays, AddFewVerticesWhereFacesCross) {
+  const Case c = crossed(24);
+  ToleranceProof proof(std::make_shared<const InputSurface>(c.mesh), 0.02);
+  QuadMesh quads = c.quads;
+  ASSERT_TRUE(proof.check(ComparedSurfaces(proof.input(), quads)).empty());
+  CrossingPlaces crossing(c.mesh);
+  inlay_crossing(proof, crossing, 1e-6, quads);
+  EXPECT_TRUE(crossing.faces_of(quads.mesh).empty());
+  EXPECT_LE(quads.mesh.vertex_count(), 1.03 * c.quads.mesh.vertex_count());
+  EXPECT_TRUE(check_tolerance(ComparedSurfaces(c.mesh, quads), 0.02).empty());
+}
+
 /// The surface has a hole where faces of the result cross, which has one far away instead: only
 /// what lies over hundreds of cells is like them.
 TEST(Inlays, StayInProportionToWhatCrosses) {
