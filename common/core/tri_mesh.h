@@ -27,8 +27,8 @@ struct TriMesh {
   std::vector<Index>
       vertex_out;  ///< [V] an outgoing half-edge; the clockwise-most one on a boundary
   std::vector<std::uint8_t> is_feature;  ///< [3F] 1 on feature half-edges, boundary excluded
-  std::vector<std::uint8_t>
-      is_corner;  ///< [V] 1 where feature or boundary lines end, meet or turn sharply
+  std::vector<std::uint8_t> is_corner;  ///< [V] 1 where feature or boundary lines end, meet or turn
+                                        ///< sharply; tips of cones
 
   std::vector<std::array<Index, 3>> face_wedges;  ///< [F] wedge of each corner
   std::vector<Index> wedge_vertex;                ///< [W] vertex of each wedge

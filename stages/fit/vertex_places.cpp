@@ -48,8 +48,11 @@ void VertexPlaces::place_on_line(Index v) {
     if (at[i] < 1 - kOnEdge) continue;
     const Index vertex = mesh_.from(3 * foot_face_[v] + i);
     const std::vector<Index> barriers = barriers_around(vertex);
-    if (barriers.empty()) return;
-    if (mesh_.is_corner[vertex] != 0 || barriers.size() != 2) {
+    if (mesh_.is_corner[vertex] != 0) {
+      place.kind = Kind::fixed;
+    } else if (barriers.empty()) {
+      return;
+    } else if (barriers.size() != 2) {
       place.kind = Kind::fixed;
     } else {
       place = {Kind::line, barriers[0], mesh_.from(barriers[0]) == vertex ? 0.0 : 1.0};

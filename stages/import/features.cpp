@@ -16,6 +16,7 @@
 #include "stages/import/feature_noise.h"
 #include "stages/import/listed_edges.h"
 #include "stages/import/shallow_creases.h"
+#include "stages/import/sharp_points.h"
 
 namespace strake::import {
 namespace {
@@ -227,6 +228,7 @@ FeatureCounts find_features(TriMesh& mesh, const FeatureRules& rules, const Poly
   counts.edges =
       static_cast<Index>(std::count(mesh.is_feature.begin(), mesh.is_feature.end(), 1) / 2);
   counts.corners = find_corners(mesh);
+  if (rules.angle_deg < 180) counts.sharp_points = find_sharp_points(mesh);
   return counts;
 }
 

@@ -28,6 +28,7 @@ struct FeatureCounts {
   Index listed_edges = 0;    ///< of a list, the boundary excluded
   Index edges = 0;           ///< in the end
   Index corners = 0;
+  Index sharp_points = 0;  ///< corners off all lines, as `find_sharp_points` states
 };
 
 /// Flags feature edges (`is_feature`) and the nodes of feature and boundary lines (`is_corner`).
@@ -55,7 +56,7 @@ struct FeatureCounts {
 /// line turns by more than 50 degrees, measured over 1 % of the diagonal on each side (along a
 /// boundary at least three mean edges, ten where it is ragged, at most a twelfth of a closed line)
 /// and only where it turns most. Closed boundaries shorter than 4 % of the diagonal have no corners
-/// by turning.
+/// by turning. Tips of cones are corners without lines, where there are creases at all.
 ///
 /// \param input   what the mesh was made from, whose vertices the list names
 /// \param listed  edges that are features too; nullptr for none

@@ -155,6 +155,7 @@ void report_features(const import::FeatureCounts& counts, Report& report) {
   report.set("features.listed_edges", counts.listed_edges);
   report.set("features.edges", counts.edges);
   report.set("features.corners", counts.corners);
+  report.set("features.sharp_points", counts.sharp_points);
 }
 
 void report_noise(const TriMesh& mesh, Report& report) {

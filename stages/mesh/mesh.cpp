@@ -20,6 +20,7 @@
 #include "stages/mesh/polygon_graph.h"
 #include "stages/mesh/pure_quads.h"
 #include "stages/mesh/regularise.h"
+#include "stages/mesh/sharp_points.h"
 #include "stages/mesh/simplify.h"
 #include "stages/mesh/strip_count.h"
 
@@ -289,6 +290,8 @@ MeshResult mesh_lines(const TriMesh& mesh, const LineSet& lines, const MeshOptio
   }
   MeshResult result;
   result.quads = assemble(mesh, cells.graph);
+  const Index at_sharp_points = meet_sharp_points(mesh, SurfaceDistance(mesh.positions, mesh.faces),
+                                                  !options.pure_quads, result.quads);
   begin_faces_at_fans(result.quads.mesh);
   result.quads.mesh.attributes = carry_attributes(mesh, result.quads.mesh, result.quads.provenance);
 
@@ -317,6 +320,7 @@ MeshResult mesh_lines(const TriMesh& mesh, const LineSet& lines, const MeshOptio
   report.set("mesh.closed_quads", static_cast<std::int64_t>(cells.regularised.closed_quads));
   report.set("mesh.strips_split_for_count", static_cast<std::int64_t>(cells.strips.split));
   report.set("mesh.strips_collapsed_for_count", static_cast<std::int64_t>(cells.strips.collapsed));
+  report.set("mesh.vertices_at_sharp_points", static_cast<std::int64_t>(at_sharp_points));
   report.set("mesh.joined_odd_faces", static_cast<std::int64_t>(cells.joined));
   check_result(mesh, result.quads.mesh, static_cast<Index>(options.max_sides), report);
   if (options.pure_quads && analyse(result.quads.mesh).quads != result.quads.mesh.face_count()) {

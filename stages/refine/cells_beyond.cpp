@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "stages/refine/surface_cells.h"
+#include "common/geometry/nearest_on_surface.h"
 
 namespace strake {
 

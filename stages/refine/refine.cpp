@@ -18,6 +18,7 @@
 #include "common/geometry/cell_error/cell_error.h"
 #include "common/geometry/cell_error/tolerance_check.h"
 #include "common/geometry/face_crossings/face_crossings.h"
+#include "common/geometry/nearest_on_surface.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_topology.h"
 #include "stages/refine/cells_beyond.h"
@@ -25,7 +26,6 @@
 #include "stages/refine/flat_faces.h"
 #include "stages/refine/inlays.h"
 #include "stages/refine/split_cells.h"
-#include "stages/refine/surface_cells.h"
 #include "stages/refine/surface_points.h"
 
 namespace strake {

@@ -18,6 +18,7 @@
 #include "common/geometry/poly_topology/poly_topology.h"
 #include "common/geometry/samples/samples.h"
 #include "strake/chain/remesh.h"
+#include "tests/support/cones.h"
 #include "tests/support/plates.h"
 
 namespace strake {
@@ -164,6 +165,24 @@ TEST(Remesh, WithFewVerticesFacesOfAPlateDoNotCross) {
                 0.05 * static_cast<double>(vertices));
     const auto quads = static_cast<double>(analyse(result).quads);
     EXPECT_GT(quads, 0.8 * result.face_count()) << vertices;
+  }
+}
+
+// Lines run together around the tip of a cone and end, and their cells cut it off. The second one
+// has twenty times the vertices wanted, so lines are traced on a coarser mesh.
+TEST(Remesh, ConesKeepTheirTips) {
+  RemeshOptions counted;
+  counted.trace.vertices = 400;
+  RemeshOptions within;
+  within.trace.tolerance = percent(0.3);
+  for (const PolyMesh& mesh : {support::cone(60, 20, 2), support::cone(120, 80, 1)}) {
+    for (RemeshOptions* options : {&counted, &within}) {
+      options->measure = false;
+      const PolyMesh result = remesh({mesh, {}, {}, {}}, *options).quads.mesh;
+      EXPECT_EQ(std::ranges::count(result.positions, mesh.positions[0]), 1)
+          << mesh.vertex_count() << (options == &within ? " within" : " counted");
+      EXPECT_EQ(crossings(result), 0u);
+    }
   }
 }
 

@@ -1,11 +1,11 @@
-#include "stages/refine/surface_cells.h"
+#include "common/geometry/nearest_on_surface.h"
 
 #include <algorithm>
 #include <limits>
 #include <queue>
 #include <unordered_set>
 
-#include "stages/refine/section_path.h"
+#include "common/geometry/surface_point.h"
 
 namespace strake {
 

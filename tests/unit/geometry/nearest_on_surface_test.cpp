@@ -1,4 +1,4 @@
-#include "stages/refine/surface_cells.h"
+#include "common/geometry/nearest_on_surface.h"
 
 #include <gtest/gtest.h>
 
