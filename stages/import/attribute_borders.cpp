@@ -1,5 +1,6 @@
 #include "stages/import/attribute_borders.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -23,6 +24,38 @@ bool is_seam(const TriMesh& mesh, Index halfedge) {
   };
   const Index twin = mesh.twin[halfedge];
   return differ(halfedge, TriMesh::next(twin)) || differ(TriMesh::next(halfedge), twin);
+}
+
+MirrorLines::MirrorLines(const TriMesh& mesh) : mesh_(mesh) {
+  if (mesh.attributes.texture.empty()) return;
+  double sum = 0;
+  double total = 0;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const auto& [a, b, c] = mesh.faces[f];
+    const auto& p = mesh.positions;
+    const double area = (p[b] - p[a]).cross(p[c] - p[a]).norm() / 2;
+    const double texture = texture_area(f);
+    sum += std::abs(texture);
+    total += area;
+    density_.push_back(area > 0 ? texture / area : 0);
+  }
+  const double mean = sum / total;
+  for (double& density : density_) density /= mean;
+}
+
+double MirrorLines::texture_area(Index face) const {
+  const TexturePoint* at = &mesh_.attributes.texture[3 * static_cast<std::size_t>(face)];
+  return ((at[1][0] - at[0][0]) * (at[2][1] - at[0][1]) -
+          (at[1][1] - at[0][1]) * (at[2][0] - at[0][0])) /
+         2;
+}
+
+bool MirrorLines::contains(Index halfedge) const {
+  constexpr double kDense = 0.4;
+  if (density_.empty()) return false;
+  const double here = density_[TriMesh::face_of(halfedge)];
+  const double there = density_[TriMesh::face_of(mesh_.twin[halfedge])];
+  return here * there < 0 && std::min(std::abs(here), std::abs(there)) > kDense;
 }
 
 }  // namespace strake::import

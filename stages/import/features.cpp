@@ -206,10 +206,12 @@ void find_ridges(TriMesh& mesh, double height, FeatureCounts& counts) {
 }
 
 void flag_attribute_borders(TriMesh& mesh, const FeatureRules& rules, FeatureCounts& counts) {
+  const MirrorLines mirrors(mesh);
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
     if (mesh.twin[h] == kNone || h > mesh.twin[h]) continue;
     const bool is_border = rules.labels && is_label_border(mesh, h);
-    if (!is_border && !(rules.seams && is_seam(mesh, h))) continue;
+    const bool is_edge_of_texture = is_seam(mesh, h) || mirrors.contains(h);
+    if (!is_border && !(rules.seams && is_edge_of_texture)) continue;
     ++(is_border ? counts.label_edges : counts.seam_edges);
     set_feature(mesh, h, true);
   }

@@ -24,9 +24,10 @@ struct FeatureCounts {
   Index dropped_edges = 0;   ///< of what was noise
   Index ridge_edges = 0;     ///< bent less than creases, but standing out by more than the height
   Index label_edges = 0;     ///< between faces of different labels
-  Index seam_edges = 0;      ///< where the sides differ in texture coordinates, and not in labels
-  Index listed_edges = 0;    ///< of a list, the boundary excluded
-  Index edges = 0;           ///< in the end
+  Index seam_edges = 0;  ///< where the sides differ in texture coordinates, or these turn back, and
+                         ///< not in labels
+  Index listed_edges = 0;  ///< of a list, the boundary excluded
+  Index edges = 0;         ///< in the end
   Index corners = 0;
   Index sharp_points = 0;  ///< corners off all lines, as `find_sharp_points` states
 };
@@ -49,8 +50,8 @@ struct FeatureCounts {
 /// faces, from corner to corner in their section: a mesh that is coarser than the distances that
 /// matter is taken as the polyhedron it is.
 ///
-/// Borders of labels, seams and listed edges are features whatever their shape; none of this
-/// applies to them.
+/// Borders of labels, seams, lines at which texture coordinates turn back, and listed edges are
+/// features whatever their shape; none of this applies to them.
 ///
 /// Corners are the vertices where other than two feature or boundary edges meet, or where such a
 /// line turns by more than 50 degrees, measured over 1 % of the diagonal on each side (along a

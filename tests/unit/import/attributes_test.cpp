@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "common/artifact/meshfile/mesh_reader.h"
 #include "common/artifact/meshfile/mesh_writer.h"
+#include "common/geometry/samples/samples.h"
 #include "tests/support/attributed.h"
 #include "tests/unit/import/shapes.h"
 
@@ -201,6 +204,40 @@ TEST(Attributes, BordersAreFeatures) {
   ImportOptions without;
   without.no_attributes = true;
   EXPECT_TRUE(shapes::imported(mesh, without).mesh.attributes.empty());
+}
+
+/// Texture coordinates from the place of each corner.
+template <typename Place>
+PolyMesh textured(PolyMesh mesh, const Place& place) {
+  for (const Index v : mesh.corners) mesh.attributes.texture.push_back(place(mesh.positions[v]));
+  return mesh;
+}
+
+std::ptrdiff_t feature_edges(const PolyMesh& mesh) {
+  const TriMesh result = shapes::imported(mesh, shapes::undivided()).mesh;
+  return std::ranges::count(result.is_feature, 1) / 2;
+}
+
+// Two halves share their part of a picture; between places on both sides would be neither's.
+TEST(Attributes, LinesWhereTextureTurnsBackAreFeatures) {
+  const PolyMesh plane = shapes::grid(8, 5, [](double, double) { return 0.0; });
+  const auto mirrored = [](const Vec3& p) { return TexturePoint{std::abs(p.x() - 0.5), p.y()}; };
+  const auto whole = [](const Vec3& p) { return TexturePoint{p.x(), p.y()}; };
+  EXPECT_EQ(feature_edges(textured(plane, mirrored)), 5);
+  EXPECT_EQ(feature_edges(textured(plane, whole)), 0);
+}
+
+// A picture that is projected through an object turns back along its outline, where it is thin.
+TEST(Attributes, OutlinesOfProjectedTextureAreNoFeatures) {
+  SampleOptions options;
+  options.faces = 3000;
+  const PolyMesh sphere = make_sample(SampleKind::sphere, options);
+  for (const Vec3& axis : {Vec3(0, 0, 1), Vec3(1, 2, 3).normalized()}) {
+    const Vec3 u = axis.unitOrthogonal();
+    const Vec3 v = axis.cross(u);
+    const auto projected = [&](const Vec3& p) { return TexturePoint{u.dot(p), v.dot(p)}; };
+    EXPECT_EQ(feature_edges(textured(sphere, projected)), 0);
+  }
 }
 
 }  // namespace
