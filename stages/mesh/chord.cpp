@@ -77,7 +77,8 @@ std::optional<Moves> merging_moves(const PolygonGraph& graph, const Chord& chord
 
 }  // namespace
 
-std::optional<Chord> follow_chord(const PolygonGraph& graph, Index dart, std::size_t most) {
+std::optional<Chord> follow_chord(const PolygonGraph& graph, Index dart, std::size_t most,
+                                  std::vector<char>* crossed) {
   const DartGraph& g = graph.graph();
   Chord chord;
   chord.starts_outside = graph.is_outer(dart);
@@ -86,6 +87,7 @@ std::optional<Chord> follow_chord(const PolygonGraph& graph, Index dart, std::si
   if (!chord.starts_outside) visited.push_back(graph.name_of_cell(dart));
   for (Index d = dart;;) {
     chord.rungs.push_back(d);
+    if (crossed != nullptr) (*crossed)[DartGraph::edge_of(d)] = 1;
     if (chord.rungs.size() > most) return std::nullopt;
     const Index across = DartGraph::opposite(d);
     chord.ends_outside = graph.is_outer(across);

@@ -23,10 +23,12 @@ struct Chord {
 };
 
 /// Follows the way out of a cell, or of what is outside, across one of its edges.
-/// \param most  longest way, in rungs
+/// \param most     longest way, in rungs
+/// \param crossed  [E] gets 1 for the edges crossed, whatever comes of it; nullptr: not asked
 /// \return nothing where it crosses itself, is too long, ends at a larger face, or starts in a quad
 ///         and does not come back
-std::optional<Chord> follow_chord(const PolygonGraph& graph, Index dart, std::size_t most);
+std::optional<Chord> follow_chord(const PolygonGraph& graph, Index dart, std::size_t most,
+                                  std::vector<char>* crossed = nullptr);
 
 /// Whether an edge can be halved and its middle joined to the corners across from it in the two odd
 /// faces beside it: not where both are pentagons with the same corner there.

@@ -49,11 +49,10 @@ std::vector<Chord> find_strips(const PolygonGraph& graph) {
   std::vector<char> seen(g.dart_count() / 2, 0);
   std::vector<Chord> strips;
   const auto follow = [&](Index dart) {
+    // A way that comes to no strip does not from its other edges, either.
     if (seen[DartGraph::edge_of(dart)] != 0) return;
-    std::optional<Chord> strip = follow_chord(graph, dart, kLongestStrip);
-    if (!strip) return;
-    for (const Index rung : strip->rungs) seen[DartGraph::edge_of(rung)] = 1;
-    strips.push_back(std::move(*strip));
+    std::optional<Chord> strip = follow_chord(graph, dart, kLongestStrip, &seen);
+    if (strip) strips.push_back(std::move(*strip));
   };
   graph.for_each_cell([&](Index /*d*/, const DartLoop& cell) {
     if (cell.size() != 3 && cell.size() != 5) return;
