@@ -140,16 +140,29 @@ class Bridges {
   std::vector<Index> degree_;
 };
 
-/// Flags those of some edges that are connected to lines of some length among themselves.
-/// \return their number
-Index add_long_enough(TriMesh& mesh, const std::vector<Index>& edges) {
-  constexpr double kShortest = 0.05;  // share of the diagonal
+/// Flags those of some edges that `drop`, which sees them alone, leaves. \return their number
+template <class Drop>
+Index add_lines(TriMesh& mesh, const std::vector<Index>& edges, const Drop& drop) {
   const std::vector<std::uint8_t> others =
       std::exchange(mesh.is_feature, std::vector<std::uint8_t>(mesh.halfedge_count(), 0));
   for (const Index h : edges) set_feature(mesh, h, true);
-  const Index dropped = drop_shorter(mesh, kShortest * mesh.diagonal);
+  const Index dropped = drop();
   for (Index h = 0; h < mesh.halfedge_count(); ++h) mesh.is_feature[h] |= others[h];
   return static_cast<Index>(edges.size()) - dropped;
+}
+
+/// Flags those of some edges that are connected to lines of some length among themselves.
+Index add_long_enough(TriMesh& mesh, const std::vector<Index>& edges) {
+  constexpr double kShortest = 0.05;  // share of the diagonal
+  return add_lines(mesh, edges, [&] { return drop_shorter(mesh, kShortest * mesh.diagonal); });
+}
+
+/// Flags those of some edges that make lines across strips from features to features.
+Index add_links(TriMesh& mesh, const std::vector<Vec3>& normals, std::vector<Index> edges) {
+  std::erase_if(edges,
+                [&](Index h) { return mesh.is_feature[h] != 0 || !lies_across(mesh, normals, h); });
+  const std::vector<Index> degree = barrier_degrees(mesh);
+  return add_lines(mesh, edges, [&] { return drop_loose(mesh, degree); });
 }
 
 void find_creases(TriMesh& mesh, double angle_deg, FeatureCounts& counts) {
@@ -180,6 +193,7 @@ void find_creases(TriMesh& mesh, double angle_deg, FeatureCounts& counts) {
   counts.shallow_edges = add_long_enough(mesh, shallow);
   counts.bridging_edges = Bridges(mesh, excess, kWeak * angle).run();
   counts.dropped_edges = drop_noise(mesh, rough_at);
+  counts.shallow_edges += add_links(mesh, normals, shallow);  // noise holds none
 }
 
 /// How far an edge stands out over the straight way across its two faces.

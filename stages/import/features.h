@@ -37,10 +37,11 @@ struct FeatureCounts {
 /// that by thrice the roughness there: what the median bend of the edges around it (those bent by
 /// at most `angle_deg`) exceeds 5 degrees by. So noise and detail at the limit of the sampling are
 /// no creases, and on smooth faces the angle decides alone. Where there is no roughness, edges bent
-/// by more than half of `angle_deg` are creases, too, if they stand alone (`stands_alone`). Creases
-/// that fade out are continued
-/// along edges bent by more than 0.6 of `angle_deg` (and the roughness), but only as far as another
-/// crease or the boundary.
+/// by more than half of `angle_deg` are creases, too, if they stand alone (`stands_alone`) and make
+/// lines of 5 % of the diagonal, or lie across a strip between features or boundaries in the end
+/// (`lies_across`), as the toe of a rib does. Creases that fade out are continued along edges bent
+/// by more than 0.6 of `angle_deg` (and the roughness), but only as far as another crease or the
+/// boundary.
 ///
 /// What is noise then is dropped, as `drop_noise` states. The normal of a sliver, which rounding of
 /// the coordinates may have turned, is taken from the neighbour across a long edge.
