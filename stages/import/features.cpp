@@ -12,6 +12,7 @@
 #include "common/geometry/topology/vertex_ring.h"
 #include "stages/import/attribute_borders.h"
 #include "stages/import/face_normals.h"
+#include "stages/import/facets.h"
 #include "stages/import/feature_graph.h"
 #include "stages/import/feature_noise.h"
 #include "stages/import/listed_edges.h"
@@ -219,6 +220,26 @@ void find_ridges(TriMesh& mesh, double height, FeatureCounts& counts) {
   }
 }
 
+/// Where most edges of facets, by length, stand out by more than the height all are kept: between
+/// some edges of a round lines run askew over the others.
+void find_facets(TriMesh& mesh, double height, FeatureCounts& counts) {
+  constexpr double kMost = 0.5;
+  const std::vector<float> bend = bend_angles(mesh, robust_face_normals(mesh));
+  std::vector<Index> edges = find_facet_edges(mesh, bend);
+  double length = 0;
+  double high = 0;
+  for (const Index h : edges) {
+    const double way = (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).norm();
+    length += way;
+    if (ridge_height(mesh, h) > height) high += way;
+  }
+  if (high < kMost * length) {
+    std::erase_if(edges, [&](Index h) { return !(ridge_height(mesh, h) > height); });
+  }
+  for (const Index h : edges) set_feature(mesh, h, true);
+  counts.facet_edges = static_cast<Index>(edges.size());
+}
+
 void flag_attribute_borders(TriMesh& mesh, const FeatureRules& rules, FeatureCounts& counts) {
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
     if (mesh.twin[h] == kNone || h > mesh.twin[h]) continue;
@@ -237,6 +258,7 @@ FeatureCounts find_features(TriMesh& mesh, const FeatureRules& rules, const Poly
   mesh.is_feature.assign(mesh.halfedge_count(), 0);
   if (rules.angle_deg < 180) find_creases(mesh, rules.angle_deg, counts);
   if (std::isfinite(rules.height)) find_ridges(mesh, rules.height, counts);
+  if (std::isfinite(rules.facet_height)) find_facets(mesh, rules.facet_height, counts);
   flag_attribute_borders(mesh, rules, counts);
   if (listed != nullptr) counts.listed_edges = flag_listed_edges(*listed, input, mesh);
   counts.edges =

@@ -13,6 +13,8 @@ struct FeatureRules {
   double angle_deg = 40;  ///< in [0, 180]; bent by more are creases; 180: no creases
   /// Model units; edges that stand out by more are ridges
   double height = std::numeric_limits<double>::infinity();
+  /// The same of edges between facets
+  double facet_height = std::numeric_limits<double>::infinity();
   bool labels = true;  ///< borders of labels
   bool seams = true;   ///< seams of texture coordinates
 };
@@ -23,6 +25,7 @@ struct FeatureCounts {
   Index bridging_edges = 0;  ///< bent less, added between strong ones
   Index dropped_edges = 0;   ///< of what was noise
   Index ridge_edges = 0;     ///< bent less than creases, but standing out by more than the height
+  Index facet_edges = 0;     ///< of flat polygons, as `find_facet_edges` states
   Index label_edges = 0;     ///< between faces of different labels
   Index seam_edges = 0;      ///< where the sides differ in texture coordinates, and not in labels
   Index listed_edges = 0;    ///< of a list, the boundary excluded
@@ -49,6 +52,9 @@ struct FeatureCounts {
 /// A ridge is an edge that stands out by more than `height` over the straight way across its two
 /// faces, from corner to corner in their section: a mesh that is coarser than the distances that
 /// matter is taken as the polyhedron it is.
+///
+/// Edges of facets are those of `find_facet_edges` that stand out by more than `facet_height`, and
+/// all of them where that is half of their length or more.
 ///
 /// Borders of labels, seams and listed edges are features whatever their shape; none of this
 /// applies to them.

@@ -181,6 +181,32 @@ TEST(Features, SmallBumpsHaveNoEdges) {
   EXPECT_EQ(feature_edges(imported(mesh).mesh), 0);
 }
 
+ImportOptions with_facets(double height) {
+  ImportOptions options = shapes::undivided();
+  options.facet_height = Length{height, false};
+  return options;
+}
+
+/// Strips a twentieth wide, but for the first and the last one.
+TEST(Features, EdgesOfFacetsStandOutByMoreThanTheHeight) {
+  const PolyMesh mesh = round(25, 6, 0.05);
+  const double height = 0.05 * std::sin(12.5 * kDegree);
+  EXPECT_EQ(feature_edges(imported(mesh, with_facets(0.9 * height)).mesh), 6 * 20);
+  EXPECT_EQ(feature_edges(imported(mesh, with_facets(1.1 * height)).mesh), 2 * 20);
+  EXPECT_EQ(feature_edges(imported(mesh, with_facets(2.1 * height)).mesh), 0);
+  // Of three edges two are high.
+  EXPECT_EQ(feature_edges(imported(round(25, 3, 0.05), with_facets(1.1 * height)).mesh), 3 * 20);
+  EXPECT_EQ(feature_edges(imported(round(9, 6, 0.05), with_facets(1e-6)).mesh), 0);
+}
+
+/// A dome: of quads no two of whose edges lie in a plane triangles are bent at every edge.
+TEST(Features, TriangulationsOfRoundShapesHaveNoFacets) {
+  const PolyMesh dome = shapes::grid(
+      8, 8, [](double x, double y) { return 0.5 * std::sin(3 * x) * std::sin(3 * y); });
+  EXPECT_EQ(feature_edges(imported(dome, with_facets(1e-6)).mesh),
+            feature_edges(imported(dome).mesh));
+}
+
 TEST(Features, RidgesStandOutByMoreThanTheHeightAtAnyAngle) {
   constexpr int kSteps = 20;
   for (const double angle : {3.0, 12.0, 19.0}) {
