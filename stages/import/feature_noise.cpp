@@ -300,6 +300,23 @@ Index drop_shorter(TriMesh& mesh, double length) {
   });
 }
 
+Index drop_loose(TriMesh& mesh, const std::vector<Index>& degree) {
+  std::vector<Index> own(mesh.positions.size(), 0);
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) own[mesh.from(h)] += mesh.is_feature[h];
+  return drop_pieces(mesh, [&](const std::vector<Index>& piece) {
+    int ends = 0;
+    bool is_loose = false;
+    for (const Index h : piece) {
+      for (const Index v : {mesh.from(h), mesh.to(h)}) {
+        if (own[v] != 1) continue;
+        ++ends;
+        is_loose = is_loose || degree[v] == 0;
+      }
+    }
+    return ends < 2 || is_loose;
+  });
+}
+
 Index drop_noise(TriMesh& mesh, const std::vector<float>& roughness) {
   Index dropped = 0;
   while (const Index more = NoisyLines(mesh, roughness).drop()) dropped += more;

@@ -32,4 +32,10 @@ Index drop_noise(TriMesh& mesh, const std::vector<float>& roughness);
 /// \return edges whose flag was taken
 Index drop_shorter(TriMesh& mesh, double length);
 
+/// Takes the flags off connected pieces but those all of whose ends, two or more, lie on other
+/// lines.
+/// \param degree  [V] number of edges of the other lines
+/// \return edges whose flag was taken
+Index drop_loose(TriMesh& mesh, const std::vector<Index>& degree);
+
 }  // namespace strake::import

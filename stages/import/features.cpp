@@ -12,6 +12,7 @@
 #include "common/geometry/topology/vertex_ring.h"
 #include "stages/import/attribute_borders.h"
 #include "stages/import/face_normals.h"
+#include "stages/import/facets.h"
 #include "stages/import/feature_graph.h"
 #include "stages/import/feature_noise.h"
 #include "stages/import/listed_edges.h"
@@ -140,16 +141,29 @@ class Bridges {
   std::vector<Index> degree_;
 };
 
-/// Flags those of some edges that are connected to lines of some length among themselves.
-/// \return their number
-Index add_long_enough(TriMesh& mesh, const std::vector<Index>& edges) {
-  constexpr double kShortest = 0.05;  // share of the diagonal
+/// Flags those of some edges that `drop`, which sees them alone, leaves. \return their number
+template <class Drop>
+Index add_lines(TriMesh& mesh, const std::vector<Index>& edges, const Drop& drop) {
   const std::vector<std::uint8_t> others =
       std::exchange(mesh.is_feature, std::vector<std::uint8_t>(mesh.halfedge_count(), 0));
   for (const Index h : edges) set_feature(mesh, h, true);
-  const Index dropped = drop_shorter(mesh, kShortest * mesh.diagonal);
+  const Index dropped = drop();
   for (Index h = 0; h < mesh.halfedge_count(); ++h) mesh.is_feature[h] |= others[h];
   return static_cast<Index>(edges.size()) - dropped;
+}
+
+/// Flags those of some edges that are connected to lines of some length among themselves.
+Index add_long_enough(TriMesh& mesh, const std::vector<Index>& edges) {
+  constexpr double kShortest = 0.05;  // share of the diagonal
+  return add_lines(mesh, edges, [&] { return drop_shorter(mesh, kShortest * mesh.diagonal); });
+}
+
+/// Flags those of some edges that make lines across strips from features to features.
+Index add_links(TriMesh& mesh, const std::vector<Vec3>& normals, std::vector<Index> edges) {
+  std::erase_if(edges,
+                [&](Index h) { return mesh.is_feature[h] != 0 || !lies_across(mesh, normals, h); });
+  const std::vector<Index> degree = barrier_degrees(mesh);
+  return add_lines(mesh, edges, [&] { return drop_loose(mesh, degree); });
 }
 
 void find_creases(TriMesh& mesh, double angle_deg, FeatureCounts& counts) {
@@ -180,6 +194,7 @@ void find_creases(TriMesh& mesh, double angle_deg, FeatureCounts& counts) {
   counts.shallow_edges = add_long_enough(mesh, shallow);
   counts.bridging_edges = Bridges(mesh, excess, kWeak * angle).run();
   counts.dropped_edges = drop_noise(mesh, rough_at);
+  counts.shallow_edges += add_links(mesh, normals, shallow);  // noise holds none
 }
 
 /// How far an edge stands out over the straight way across its two faces.
@@ -205,6 +220,26 @@ void find_ridges(TriMesh& mesh, double height, FeatureCounts& counts) {
   }
 }
 
+/// Where most edges of facets, by length, stand out by more than the height all are kept: between
+/// some edges of a round lines run askew over the others.
+void find_facets(TriMesh& mesh, double height, FeatureCounts& counts) {
+  constexpr double kMost = 0.5;
+  const std::vector<float> bend = bend_angles(mesh, robust_face_normals(mesh));
+  std::vector<Index> edges = find_facet_edges(mesh, bend);
+  double length = 0;
+  double high = 0;
+  for (const Index h : edges) {
+    const double way = (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).norm();
+    length += way;
+    if (ridge_height(mesh, h) > height) high += way;
+  }
+  if (high < kMost * length) {
+    std::erase_if(edges, [&](Index h) { return !(ridge_height(mesh, h) > height); });
+  }
+  for (const Index h : edges) set_feature(mesh, h, true);
+  counts.facet_edges = static_cast<Index>(edges.size());
+}
+
 void flag_attribute_borders(TriMesh& mesh, const FeatureRules& rules, FeatureCounts& counts) {
   const MirrorLines mirrors(mesh);
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
@@ -225,6 +260,7 @@ FeatureCounts find_features(TriMesh& mesh, const FeatureRules& rules, const Poly
   mesh.is_feature.assign(mesh.halfedge_count(), 0);
   if (rules.angle_deg < 180) find_creases(mesh, rules.angle_deg, counts);
   if (std::isfinite(rules.height)) find_ridges(mesh, rules.height, counts);
+  if (std::isfinite(rules.facet_height)) find_facets(mesh, rules.facet_height, counts);
   flag_attribute_borders(mesh, rules, counts);
   if (listed != nullptr) counts.listed_edges = flag_listed_edges(*listed, input, mesh);
   counts.edges =

@@ -13,6 +13,8 @@ struct FeatureRules {
   double angle_deg = 40;  ///< in [0, 180]; bent by more are creases; 180: no creases
   /// Model units; edges that stand out by more are ridges
   double height = std::numeric_limits<double>::infinity();
+  /// The same of edges between facets
+  double facet_height = std::numeric_limits<double>::infinity();
   bool labels = true;  ///< borders of labels
   bool seams = true;   ///< seams of texture coordinates
 };
@@ -23,6 +25,7 @@ struct FeatureCounts {
   Index bridging_edges = 0;  ///< bent less, added between strong ones
   Index dropped_edges = 0;   ///< of what was noise
   Index ridge_edges = 0;     ///< bent less than creases, but standing out by more than the height
+  Index facet_edges = 0;     ///< of flat polygons, as `find_facet_edges` states
   Index label_edges = 0;     ///< between faces of different labels
   Index seam_edges = 0;  ///< where the sides differ in texture coordinates, or these turn back, and
                          ///< not in labels
@@ -38,10 +41,11 @@ struct FeatureCounts {
 /// that by thrice the roughness there: what the median bend of the edges around it (those bent by
 /// at most `angle_deg`) exceeds 5 degrees by. So noise and detail at the limit of the sampling are
 /// no creases, and on smooth faces the angle decides alone. Where there is no roughness, edges bent
-/// by more than half of `angle_deg` are creases, too, if they stand alone (`stands_alone`). Creases
-/// that fade out are continued
-/// along edges bent by more than 0.6 of `angle_deg` (and the roughness), but only as far as another
-/// crease or the boundary.
+/// by more than half of `angle_deg` are creases, too, if they stand alone (`stands_alone`) and make
+/// lines of 5 % of the diagonal, or lie across a strip between features or boundaries in the end
+/// (`lies_across`), as the toe of a rib does. Creases that fade out are continued along edges bent
+/// by more than 0.6 of `angle_deg` (and the roughness), but only as far as another crease or the
+/// boundary.
 ///
 /// What is noise then is dropped, as `drop_noise` states. The normal of a sliver, which rounding of
 /// the coordinates may have turned, is taken from the neighbour across a long edge.
@@ -49,6 +53,9 @@ struct FeatureCounts {
 /// A ridge is an edge that stands out by more than `height` over the straight way across its two
 /// faces, from corner to corner in their section: a mesh that is coarser than the distances that
 /// matter is taken as the polyhedron it is.
+///
+/// Edges of facets are those of `find_facet_edges` that stand out by more than `facet_height`, and
+/// all of them where that is half of their length or more.
 ///
 /// Borders of labels, seams, lines at which texture coordinates turn back, and listed edges are
 /// features whatever their shape; none of this applies to them.

@@ -150,6 +150,7 @@ void report_features(const import::FeatureCounts& counts, Report& report) {
   report.set("features.bridging_edges", counts.bridging_edges);
   report.set("features.dropped_edges", counts.dropped_edges);
   report.set("features.ridge_edges", counts.ridge_edges);
+  report.set("features.facet_edges", counts.facet_edges);
   report.set("features.label_edges", counts.label_edges);
   report.set("features.seam_edges", counts.seam_edges);
   report.set("features.listed_edges", counts.listed_edges);
@@ -218,9 +219,10 @@ FeatureRules feature_rules(const ImportOptions& options, double diagonal) {
   const auto wants = [&](const char* kind) {
     return options.attribute_features == "all" || options.attribute_features == kind;
   };
-  return {options.feature_angle_deg,
-          options.feature_height ? options.feature_height->resolve(diagonal)
-                                 : std::numeric_limits<double>::infinity(),
+  const auto height = [&](const std::optional<Length>& length) {
+    return length ? length->resolve(diagonal) : std::numeric_limits<double>::infinity();
+  };
+  return {options.feature_angle_deg, height(options.feature_height), height(options.facet_height),
           wants("labels"), wants("seams")};
 }
 

@@ -18,6 +18,8 @@ struct ImportOptions {
                                   ///< 180: none
   /// Height of ridges above which edges are feature edges whatever their angle; default: none
   std::optional<Length> feature_height = std::nullopt;
+  /// Height above which edges between flat polygons are feature edges, too; default: none
+  std::optional<Length> facet_height = std::nullopt;
   std::string attribute_features = "seams";  ///< borders that are features: labels, seams, none
   bool no_attributes = false;                ///< leave out colours, texture coordinates and labels
   /// Largest share of the area that repairs may take away. Not counted is what is there twice.

@@ -96,7 +96,23 @@ Outlook look_across(const TriMesh& mesh, const std::vector<Vec3>& normals, Index
   return outlook;
 }
 
+/// Whether the way into the face of a half-edge goes on for `length` before the next barrier.
+bool goes_on(const TriMesh& mesh, const std::vector<Vec3>& normals, Index h, double length) {
+  StraightWay way(mesh, normals, h);
+  for (int face = 0; face < kMostFaces && way.advance(); ++face) {
+    if (way.length() >= length) return true;
+    if (mesh.is_barrier(way.halfedge())) return false;
+    way.cross();
+  }
+  return false;
+}
+
 }  // namespace
+
+bool lies_across(const TriMesh& mesh, const std::vector<Vec3>& normals, Index h) {
+  const double width = (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).norm();
+  return goes_on(mesh, normals, h, width) && goes_on(mesh, normals, mesh.twin[h], width);
+}
 
 bool stands_alone(const TriMesh& mesh, const std::vector<Vec3>& normals, Index h, double bend) {
   const Outlook here = look_across(mesh, normals, h, bend);

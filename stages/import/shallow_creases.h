@@ -17,4 +17,9 @@ namespace strake::import {
 /// normals  [F] unit
 bool stands_alone(const TriMesh& mesh, const std::vector<Vec3>& normals, Index h, double bend);
 
+/// Whether straight ways across both faces of an inner half-edge, from its middle, go on for its
+/// length before they come to the next barrier: so it is where an edge lies across a strip between
+/// creases, as the toe of a rib does, and not where it closes a bend of a crease.
+bool lies_across(const TriMesh& mesh, const std::vector<Vec3>& normals, Index h);
+
 }  // namespace strake::import

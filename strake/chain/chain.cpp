@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -16,6 +17,7 @@
 #include "stages/decimate/stage.h"
 #include "stages/evaluate/stage.h"
 #include "stages/fit/stage.h"
+#include "stages/import/import.h"
 #include "stages/import/stage.h"
 #include "stages/lift/stage.h"
 #include "stages/mesh/stage.h"
@@ -26,6 +28,7 @@
 #include "stages/smooth/stage.h"
 #include "stages/tensor/stage.h"
 #include "stages/trace/stage.h"
+#include "strake/chain/facet_height.h"
 #include "strake/chain/goals.h"
 
 namespace strake {
@@ -163,19 +166,33 @@ std::string Chain::reach_goal(Session& session) const {
   return meet_tolerance(session, goal_stages, tolerance, feedback_rounds);
 }
 
+void Chain::keep_coarse_shapes(const Session& session, double diagonal) const {
+  const std::string tolerance = trace.option("tolerance").value();
+  const Option& angle = import.option("feature-angle");
+  const Option& height = import.option("feature-height");
+  if (!tolerance.empty() && height.value().empty() && std::stod(angle.value()) < 180) {
+    Length ridge = Length::parse(tolerance);
+    ridge.value *= kRidgeHeight;
+    height.parse_into(ridge.to_string());
+  }
+  const Option& facets = import.option("facet-height");
+  const bool is_users = angle.value() != fmt::format("{}", ImportOptions{}.feature_angle_deg) ||
+                        !height.value().empty() || !facets.value().empty();
+  // A quad-dominant mesh has about as many faces as vertices.
+  const std::string vertices = trace.option("vertices").value();
+  const std::string count = vertices.empty() ? trace.option("faces").value() : vertices;
+  if (is_users || count.empty()) return;
+  const PolyMesh& input = session.get<Polygons>("input").mesh;
+  const std::optional<Length> least = facet_height(input, diagonal, std::stod(count));
+  if (least) facets.parse_into(least->to_string());
+}
+
 std::string Chain::run(Session& session) const {
   check_goals();
   require_density_of_input(session);
   const double diagonal = diagonal_of(session.value("input"));
   for (const Stage* stage : stages()) check_lengths(stage->options, diagonal);
-  const std::string tolerance = trace.option("tolerance").value();
-  const Option& height = import.option("feature-height");
-  const bool keeps_features = std::stod(import.option("feature-angle").value()) < 180;
-  if (!tolerance.empty() && height.value().empty() && keeps_features) {
-    Length ridge = Length::parse(tolerance);
-    ridge.value *= kRidgeHeight;
-    height.parse_into(ridge.to_string());
-  }
+  keep_coarse_shapes(session, diagonal);
   const Option& sides = refine.option("refine-sides");
   if (sides.value().empty()) sides.parse_into(mesh.option("max-sides").value());
   session.run(import);

@@ -50,6 +50,9 @@ struct Chain {
   const Report& measure(Session& session, const std::string& port) const;
 
  private:
+  /// Sets which edges of a coarse mesh are features, for the goal, where nothing was said of that.
+  /// \param diagonal  of the input, model units
+  void keep_coarse_shapes(const Session& session, double diagonal) const;
   std::string reach_goal(Session& session) const;
 };
 

@@ -186,6 +186,51 @@ TEST(Remesh, ConesKeepTheirTips) {
   }
 }
 
+/// A barrel of `sides` sides: rings of planar quads, and a polygon at either end.
+PolyMesh faceted_barrel(int sides) {
+  PolyMesh mesh;
+  const std::array<Vec2, 5> section = {Vec2(0.7, -1), Vec2(0.93, -0.5), Vec2(1, 0), Vec2(0.93, 0.5),
+                                       Vec2(0.7, 1)};
+  for (const Vec2& at : section) {
+    for (int i = 0; i < sides; ++i) {
+      const double turn = 2 * M_PI * i / sides;
+      mesh.positions.emplace_back(at.x() * std::cos(turn), at.x() * std::sin(turn), at.y());
+    }
+  }
+  std::vector<Index> bottom;
+  std::vector<Index> top;
+  for (Index i = 0; i < sides; ++i) {
+    const Index next = (i + 1) % sides;
+    for (Index ring = 0; ring < 4 * sides; ring += sides) {
+      mesh.add_face(
+          std::array<Index, 4>{ring + i, ring + next, ring + sides + next, ring + sides + i});
+    }
+    bottom.push_back(sides - 1 - i);
+    top.push_back(4 * sides + i);
+  }
+  mesh.add_face(bottom);
+  mesh.add_face(top);
+  return mesh;
+}
+
+// Lines of curvature ran askew over the facets, and cells cut their edges: 2 % of the diagonal off.
+TEST(Remesh, FacetsOfACoarseMeshStayWhereThereIsRoom) {
+  const PolyMesh mesh = faceted_barrel(12);
+  const auto largest = [&](std::int64_t vertices, double angle) {
+    RemeshOptions options;
+    options.trace.vertices = vertices;
+    options.import.feature_angle_deg = angle;
+    options.measure = false;
+    const RemeshResult result = remesh({mesh, {}, {}, {}}, options);
+    EXPECT_EQ(crossings(result.quads.mesh), 0u) << vertices;
+    return measure_cells({result.mesh, result.quads}).largest / result.mesh.diagonal;
+  };
+  const double many = largest(240, 40);
+  EXPECT_LT(many, 1e-4);
+  // What a user says of features holds.
+  EXPECT_GT(largest(240, 50), 10 * many);
+}
+
 // Whatever made a result last, programs that cut faces into fans see the surface that was measured.
 TEST(Remesh, FansOfFacesAreTheSurfaceMeasured) {
   const PolyMesh mesh = claws(4, 0.25, 0.1, 0.6, 6000);

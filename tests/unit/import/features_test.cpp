@@ -130,6 +130,83 @@ TEST(Features, EdgesBetweenCurvedFacesAreKept) {
   EXPECT_EQ(feature_edges(imported(lens).mesh), 20);
 }
 
+/// A rib on a square plate: its slope begins at a toe as wide as the rib, and ends after `run`.
+PolyMesh ribbed_plate(double slope_deg, double width, double run) {
+  const double low = 0.5 - width / 2;
+  const double high = 0.5 + width / 2;
+  const double back = 0.3 + run;
+  const double top = run * std::tan(slope_deg * kDegree);
+  return shapes::polygons({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0),
+                           Vec3(0.3, low, 0), Vec3(0.3, high, 0), Vec3(back, low, 0),
+                           Vec3(back, high, 0), Vec3(back, low, top), Vec3(back, high, top)},
+                          {{0, 1, 6, 4},
+                           {1, 2, 7, 6},
+                           {2, 3, 5, 7},
+                           {3, 0, 4, 5},
+                           {4, 8, 9, 5},
+                           {4, 6, 8},
+                           {7, 5, 9},
+                           {6, 7, 9, 8}});
+}
+
+/// The toe is 1.4 % of the diagonal long.
+TEST(Features, ShortEdgesAcrossStripsBetweenCreasesAreKept) {
+  for (const double slope : {19.0, 25.0, 35.0}) {
+    EXPECT_EQ(feature_edges(imported(ribbed_plate(slope, 0.02, 0.4)).mesh), slope > 20 ? 9 : 8)
+        << slope;
+  }
+}
+
+/// Those that close a bend of a crease are no strips' ends, as on scans.
+TEST(Features, ShortEdgesWithCreasesNearAreNone) {
+  EXPECT_EQ(feature_edges(imported(ribbed_plate(25, 0.06, 0.04)).mesh), 8);
+}
+
+/// A flat pyramid amid a plate: what is bent there ends nowhere.
+TEST(Features, SmallBumpsHaveNoEdges) {
+  constexpr double kHalf = 0.004;
+  const double top = kHalf * std::tan(25 * kDegree);
+  PolyMesh mesh = shapes::polygons(
+      {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0),
+       Vec3(0.5 - kHalf, 0.5 - kHalf, 0), Vec3(0.5 + kHalf, 0.5 - kHalf, 0),
+       Vec3(0.5 + kHalf, 0.5 + kHalf, 0), Vec3(0.5 - kHalf, 0.5 + kHalf, 0), Vec3(0.5, 0.5, top)},
+      {{0, 1, 5, 4},
+       {1, 2, 6, 5},
+       {2, 3, 7, 6},
+       {3, 0, 4, 7},
+       {4, 5, 8},
+       {5, 6, 8},
+       {6, 7, 8},
+       {7, 4, 8}});
+  EXPECT_EQ(feature_edges(imported(mesh).mesh), 0);
+}
+
+ImportOptions with_facets(double height) {
+  ImportOptions options = shapes::undivided();
+  options.facet_height = Length{height, false};
+  return options;
+}
+
+/// Strips a twentieth wide, but for the first and the last one.
+TEST(Features, EdgesOfFacetsStandOutByMoreThanTheHeight) {
+  const PolyMesh mesh = round(25, 6, 0.05);
+  const double height = 0.05 * std::sin(12.5 * kDegree);
+  EXPECT_EQ(feature_edges(imported(mesh, with_facets(0.9 * height)).mesh), 6 * 20);
+  EXPECT_EQ(feature_edges(imported(mesh, with_facets(1.1 * height)).mesh), 2 * 20);
+  EXPECT_EQ(feature_edges(imported(mesh, with_facets(2.1 * height)).mesh), 0);
+  // Of three edges two are high.
+  EXPECT_EQ(feature_edges(imported(round(25, 3, 0.05), with_facets(1.1 * height)).mesh), 3 * 20);
+  EXPECT_EQ(feature_edges(imported(round(9, 6, 0.05), with_facets(1e-6)).mesh), 0);
+}
+
+/// A dome: of quads no two of whose edges lie in a plane triangles are bent at every edge.
+TEST(Features, TriangulationsOfRoundShapesHaveNoFacets) {
+  const PolyMesh dome = shapes::grid(
+      8, 8, [](double x, double y) { return 0.5 * std::sin(3 * x) * std::sin(3 * y); });
+  EXPECT_EQ(feature_edges(imported(dome, with_facets(1e-6)).mesh),
+            feature_edges(imported(dome).mesh));
+}
+
 TEST(Features, RidgesStandOutByMoreThanTheHeightAtAnyAngle) {
   constexpr int kSteps = 20;
   for (const double angle : {3.0, 12.0, 19.0}) {
