@@ -29,6 +29,7 @@
 #include "stages/tensor/stage.h"
 #include "stages/trace/stage.h"
 #include "strake/chain/facet_height.h"
+#include "strake/chain/facet_trial.h"
 #include "strake/chain/goals.h"
 
 namespace strake {
@@ -166,25 +167,46 @@ std::string Chain::reach_goal(Session& session) const {
   return meet_tolerance(session, goal_stages, tolerance, feedback_rounds);
 }
 
-void Chain::keep_coarse_shapes(const Session& session, double diagonal) const {
+void Chain::keep_ridges() const {
   const std::string tolerance = trace.option("tolerance").value();
-  const Option& angle = import.option("feature-angle");
   const Option& height = import.option("feature-height");
-  if (!tolerance.empty() && height.value().empty() && std::stod(angle.value()) < 180) {
-    Length ridge = Length::parse(tolerance);
-    ridge.value *= kRidgeHeight;
-    height.parse_into(ridge.to_string());
+  const bool keeps_features = std::stod(import.option("feature-angle").value()) < 180;
+  if (tolerance.empty() || !height.value().empty() || !keeps_features) return;
+  Length ridge = Length::parse(tolerance);
+  ridge.value *= kRidgeHeight;
+  height.parse_into(ridge.to_string());
+}
+
+std::optional<Length> Chain::height_of_facets(const Session& session, double diagonal) const {
+  const auto is_given = [&](const char* name) { return !import.option(name).value().empty(); };
+  const std::string angle = import.option("feature-angle").value();
+  const std::string wanted = wanted_count();
+  if (angle != fmt::format("{}", ImportOptions{}.feature_angle_deg) || is_given("feature-height") ||
+      is_given("facet-height") || wanted.empty()) {
+    return std::nullopt;
   }
-  const Option& facets = import.option("facet-height");
-  const bool is_users = angle.value() != fmt::format("{}", ImportOptions{}.feature_angle_deg) ||
-                        !height.value().empty() || !facets.value().empty();
   // A quad-dominant mesh has about as many faces as vertices.
+  return facet_height(session.get<Polygons>("input").mesh, diagonal, std::stod(wanted));
+}
+
+std::string Chain::wanted_count() const {
   const std::string vertices = trace.option("vertices").value();
-  const std::string count = vertices.empty() ? trace.option("faces").value() : vertices;
-  if (is_users || count.empty()) return;
-  const PolyMesh& input = session.get<Polygons>("input").mesh;
-  const std::optional<Length> least = facet_height(input, diagonal, std::stod(count));
-  if (least) facets.parse_into(least->to_string());
+  return vertices.empty() ? trace.option("faces").value() : vertices;
+}
+
+std::string Chain::run_with_facets(Session& session, const Length& height) const {
+  const bool is_of_vertices = !trace.option("vertices").value().empty();
+  const WayToResult way{stages(), [&](Session& other) { import_mesh(other); },
+                        [&](Session& other) { return reach_goal(other); }};
+  return make_with_facets_if_better(session, way, import.option("facet-height"), height,
+                                    is_of_vertices ? Counted::vertices : Counted::faces,
+                                    std::stoll(wanted_count()));
+}
+
+void Chain::import_mesh(Session& session) const {
+  session.run(import);
+  session.keep(import);
+  session.withdraw("input");  // as large as all that is needed afterwards
 }
 
 std::string Chain::run(Session& session) const {
@@ -192,13 +214,16 @@ std::string Chain::run(Session& session) const {
   require_density_of_input(session);
   const double diagonal = diagonal_of(session.value("input"));
   for (const Stage* stage : stages()) check_lengths(stage->options, diagonal);
-  keep_coarse_shapes(session, diagonal);
+  keep_ridges();
   const Option& sides = refine.option("refine-sides");
   if (sides.value().empty()) sides.parse_into(mesh.option("max-sides").value());
-  session.run(import);
-  session.keep(import);
-  session.withdraw("input");  // as large as all that is needed afterwards
-  const std::string port = reach_goal(session);
+  std::string port;
+  if (const std::optional<Length> facets = height_of_facets(session, diagonal)) {
+    port = run_with_facets(session, *facets);
+  } else {
+    import_mesh(session);
+    port = reach_goal(session);
+  }
   warn_of_crossing(session, port);
   return port;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/core/options.h"
 #include "common/stage/stage.h"
 #include "strake/chain/session.h"
 
@@ -50,9 +51,19 @@ struct Chain {
   const Report& measure(Session& session, const std::string& port) const;
 
  private:
-  /// Sets which edges of a coarse mesh are features, for the goal, where nothing was said of that.
+  /// Within a tolerance, sets the height of ridges where nothing was said of it.
+  void keep_ridges() const;
+  /// Height above which edges between facets may be features; nothing where the goal is no count
+  /// with room for them, or the user says what features are.
   /// \param diagonal  of the input, model units
-  void keep_coarse_shapes(const Session& session, double diagonal) const;
+  [[nodiscard]] std::optional<Length> height_of_facets(const Session& session,
+                                                       double diagonal) const;
+  /// The number of vertices or faces wanted; "" where there is none.
+  [[nodiscard]] std::string wanted_count() const;
+  /// Makes a result for a count, with edges between facets as features or without.
+  /// \param height  of these
+  std::string run_with_facets(Session& session, const Length& height) const;
+  void import_mesh(Session& session) const;
   std::string reach_goal(Session& session) const;
 };
 

@@ -41,6 +41,13 @@ class Session {
     digester_ = std::move(digester);
   }
 
+  [[nodiscard]] bool keeps() const { return keeper_ != nullptr; }
+
+  /// Whom stages report to, and lines for the user go to.
+  [[nodiscard]] StageObserver& observer() const { return *observer_; }
+  /// \param observer  from now on; kept by reference
+  void report_to(StageObserver& observer) { observer_ = &observer; }
+
   /// Provides a value that no stage makes. \param digest  of the file it was read from, or ""
   void provide(const std::string& port, Value value, const std::string& origin,
                const std::string& digest);

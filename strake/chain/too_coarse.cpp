@@ -7,10 +7,7 @@
 #include <string>
 
 #include "common/core/error.h"
-#include "common/geometry/cell_error/cell_error.h"
-#include "common/geometry/face_crossings/crossing_places.h"
-#include "common/geometry/mesh_measures.h"
-#include "common/geometry/poly_topology/poly_topology.h"
+#include "strake/chain/result_faults.h"
 
 namespace strake {
 namespace {
@@ -46,9 +43,8 @@ constexpr double kMore = 1.5;
 /// Times that the count is corrected where faces are counted, and error that is small enough.
 constexpr int kMostCorrections = 3;
 constexpr double kCountAccuracy = 0.02;
-/// Samples of a result and of the surface, about; large cells hide much between few. The first look
-/// takes few: what has less than this share of a suspect distance with those is not suspect.
-constexpr double kSamples = 200000;
+/// Samples of the first look: what has less than this share of a suspect distance with those is not
+/// suspect.
 constexpr double kFirstSamples = 40000;
 constexpr double kFarFromSuspect = 0.5;
 
@@ -57,42 +53,13 @@ struct Goal {
   std::int64_t wanted;
 };
 
-/// What is wrong with a result. Lengths are in those of mean cells if there are as many as wanted.
-struct Faults {
-  double distance = 0;  ///< root mean square, times the share of the count: it falls with that
-  double largest = 0;   ///< distance
-  double crossing = 0;  ///< share of the faces
-  double missing = 0;   ///< share of the count, too few or too many
-  double odd = 0;       ///< share of the faces that are no quads
-};
-
 /// The count of the quads at a port, as a share of what is wanted.
 double reached(const Session& session, const char* port, const Goal& goal) {
   return static_cast<double>(count_of(session, port, goal.counted)) /
          static_cast<double>(goal.wanted);
 }
 
-CellSampling sampling_of(const PolyMesh& result, double samples) {
-  const double root = std::sqrt(samples / result.face_count());
-  return {.rows = static_cast<int>(std::clamp(root, 3.0, 20.0)),
-          .input_step = 1 / std::clamp(root, 3.0, 20.0)};
-}
-
-Faults faults_of(const Session& session, const Goal& goal, double samples = kSamples) {
-  const auto& mesh = session.get<TriMesh>("mesh");
-  const char* port = result_port(session);
-  const auto& result = session.get<QuadMesh>(port);
-  const double share = reached(session, port, goal);
-  const double cell = std::sqrt(surface_area(mesh) / result.mesh.vertex_count() * share);
-  const ErrorMap map =
-      measure_cells(ComparedSurfaces(mesh, result), sampling_of(result.mesh, samples));
-  const auto crossing = static_cast<double>(CrossingPlaces(mesh).of(result.mesh).size());
-  return {share * map.rms / cell, map.largest / cell, crossing / result.mesh.face_count(),
-          std::abs(share - 1),
-          1 - static_cast<double>(analyse(result.mesh).quads) / result.mesh.face_count()};
-}
-
-bool is_too_coarse(const Faults& faults) {
+bool is_too_coarse(const ResultFaults& faults) {
   return faults.distance > kSuspect || faults.largest > kShapeLost || faults.crossing > 0 ||
          faults.missing > kFarOff;
 }
@@ -100,7 +67,7 @@ bool is_too_coarse(const Faults& faults) {
 /// Whether one of the faults is much less, and none is more. Where lines are very much farther off
 /// they miss the shape, and where most of their faces cross they are none: other faults count less
 /// then.
-bool is_much_better(const Faults& other, const Faults& faults) {
+bool is_much_better(const ResultFaults& other, const ResultFaults& faults) {
   const bool crosses_less =
       faults.crossing > kManyCross && other.crossing < kFewer * faults.crossing;
   if (faults.crossing > kTangled) return crosses_less;
@@ -141,9 +108,9 @@ void decimate_to_count(Session& session, const GoalStages& stages, const Goal& g
 bool decimate_if_too_coarse(Session& session, const GoalStages& stages, Counted counted,
                             std::int64_t wanted) {
   const Goal goal{counted, wanted};
-  const Faults first = faults_of(session, goal, kFirstSamples);
+  const ResultFaults first = faults_of(session, counted, wanted, kFirstSamples);
   if (first.distance < kFarFromSuspect * kSuspect && !is_too_coarse(first)) return false;
-  const Faults faults = faults_of(session, goal);
+  const ResultFaults faults = faults_of(session, counted, wanted);
   if (!is_too_coarse(faults)) return false;
   session.say(fmt::format("lines are coarse for this shape at {} {}; decimating to compare", wanted,
                           name_of(counted)));
@@ -157,7 +124,7 @@ bool decimate_if_too_coarse(Session& session, const GoalStages& stages, Counted 
     session.say(std::string("warning: kept the lines: ") + error.what());
     return false;
   }
-  if (!is_much_better(faults_of(other, goal), faults)) return false;
+  if (!is_much_better(faults_of(other, counted, wanted), faults)) return false;
   session = other;
   session.keep(stages.decimate);
   session.keep(stages.fit);

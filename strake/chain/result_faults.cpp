@@ -1,0 +1,38 @@
+#include "strake/chain/result_faults.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/geometry/cell_error/cell_error.h"
+#include "common/geometry/face_crossings/crossing_places.h"
+#include "common/geometry/mesh_measures.h"
+#include "common/geometry/poly_topology/poly_topology.h"
+
+namespace strake {
+namespace {
+
+CellSampling sampling_of(const PolyMesh& result, double samples) {
+  const double root = std::sqrt(samples / result.face_count());
+  return {.rows = static_cast<int>(std::clamp(root, 3.0, 20.0)),
+          .input_step = 1 / std::clamp(root, 3.0, 20.0)};
+}
+
+}  // namespace
+
+ResultFaults faults_of(const Session& session, Counted counted, std::int64_t wanted,
+                       double samples) {
+  const auto& mesh = session.get<TriMesh>("mesh");
+  const char* port = result_port(session);
+  const auto& result = session.get<QuadMesh>(port);
+  const double share =
+      static_cast<double>(count_of(session, port, counted)) / static_cast<double>(wanted);
+  const double cell = std::sqrt(surface_area(mesh) / result.mesh.vertex_count() * share);
+  const ErrorMap map =
+      measure_cells(ComparedSurfaces(mesh, result), sampling_of(result.mesh, samples));
+  const auto crossing = static_cast<double>(CrossingPlaces(mesh).of(result.mesh).size());
+  return {share * map.rms / cell, map.largest / cell, crossing / result.mesh.face_count(),
+          std::abs(share - 1),
+          1 - static_cast<double>(analyse(result.mesh).quads) / result.mesh.face_count()};
+}
+
+}  // namespace strake
