@@ -100,6 +100,31 @@ TEST(Remesh, ATolerancesProofIsChecked) {
   EXPECT_NO_THROW(remesh(input, options));
 }
 
+// As marching cubes leave them where values lie at the level: several vertices in each place, and
+// from a face on a line of faces without area, which nobody sees. The proof took those of the
+// result for a surface, and what measures it did not.
+TEST(Remesh, WithinAToleranceFacesWithoutAreaAreNoSurface) {
+  const Vec3 tip(-0.529411765, 0.00588235294, 0.9);
+  const Vec3 root(-0.529411765, 0.0235294118, 0.9);
+  PolyMesh mesh;
+  mesh.positions = {tip,
+                    tip,
+                    root,
+                    root,
+                    Vec3(-0.529411765, 0.0245006786, 0.882352941),
+                    tip,
+                    root,
+                    Vec3(-0.529411765, 0.0411764706, 0.9)};
+  for (const auto& face : std::vector<std::array<Index, 3>>{
+           {5, 0, 6}, {2, 6, 0}, {6, 3, 1}, {6, 1, 5}, {4, 7, 2}, {6, 2, 7}, {7, 3, 6}}) {
+    mesh.add_face(face);
+  }
+  RemeshOptions options;
+  options.trace.tolerance = Length{0.003, false};
+  const RemeshResult result = remesh({mesh, {}, {}, {}}, options);
+  EXPECT_GT(result.quads.mesh.face_count(), 0);
+}
+
 // Likewise with so few vertices that a claw has four or five.
 TEST(Remesh, WithFewVerticesFacesDoNotCross) {
   RemeshOptions options;
