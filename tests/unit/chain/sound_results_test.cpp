@@ -141,7 +141,7 @@ TEST(Remesh, WithFewVerticesFacesDoNotCross) {
 TEST(Remesh, LinesAreNotTracedAgainForSingleFacesThatCross) {
   const PolyMesh mesh = claws(10, 0.3, 0.05, 0.6, 20000);
   std::int64_t uncrossed = 0;
-  for (const std::int64_t vertices : {450, 500, 900}) {
+  for (const std::int64_t vertices : {450, 500, 600, 700, 900}) {
     RemeshOptions options;
     options.trace.vertices = vertices;
     options.measure = false;
@@ -279,14 +279,15 @@ TEST(Remesh, WithoutAGoalFacesDoNotCross) {
     double apart;
     double width;
   };
+  bool have_crossed = false;
   for (const Ring& ring : {Ring{12, 0.25, 0.05}, Ring{10, 0.2, 0.04}, Ring{12, 0.2, 0.04}}) {
     const PolyMesh mesh = claws(ring.count, ring.apart, ring.width, 0.6, 20000);
     const RemeshResult result = remesh({mesh, {}, {}, {}}, options);
     EXPECT_EQ(crossings(result.quads.mesh), 0u) << ring.count << " claws";
-    EXPECT_TRUE(std::ranges::any_of(result.reports, [](const auto& report) {
-      return report.first == "refine-uncross";
-    })) << "nothing crossed before";
+    have_crossed |= std::ranges::any_of(
+        result.reports, [](const auto& report) { return report.first == "refine-uncross"; });
   }
+  EXPECT_TRUE(have_crossed);
 }
 
 double largest_distance(const RemeshResult& result) {
@@ -296,6 +297,18 @@ double largest_distance(const RemeshResult& result) {
     }
   }
   return std::nan("");
+}
+
+// Lines three times as far apart as usual pass a tip by: 2.8 % of the diagonal.
+TEST(Remesh, WithoutAGoalATipStays) {
+  const PolyMesh mesh = claws(1, 0.8, 0.06, 0.4, 20000);
+  RemeshOptions options;
+  options.trace.spacing_scale = 3;
+  Listener listener;
+  const RemeshResult result = remesh({mesh, {}, {}, {}}, options, listener);
+  EXPECT_NE(listener.said.find("tracing closer lines there"), std::string::npos);
+  EXPECT_LT(largest_distance(result), 0.01 * result.mesh.diagonal);
+  EXPECT_LT(result.quads.mesh.vertex_count(), 650);
 }
 
 TEST(Remesh, WithoutAGoalErrorsAreEven) {
