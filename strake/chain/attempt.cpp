@@ -77,7 +77,8 @@ Attempt part_faces(const Attempt& first, const ResultSize& size, int patience, c
     without_gain = is_last_best ? 0 : without_gain + 1;
     if (is_last_best) {
       best = last;
-    } else if (are_still_there(best.places, last.places, size.cell)) {
+    } else if (last.places.size() == best.places.size() &&
+               are_still_there(best.places, last.places, size.cell)) {
       break;
     }
   }
