@@ -12,7 +12,7 @@ namespace strake::evaluation {
 /// A surface with the vertices that belong to it.
 struct SurfaceWithVertices {
   const MeasuredSurface& surface;
-  const std::vector<Vec3>& vertices;  ///< each one used by a face
+  const std::vector<Vec3>& vertices;  ///< each one of a face with an area
 };
 
 /// The largest distance, model units, and the place it was measured from, on either surface.

@@ -35,17 +35,6 @@ PolyTopology topology_of(const TriMesh& mesh) {
   return result;
 }
 
-/// The candidate's vertices that faces use, in the reference's frame.
-std::vector<Vec3> used_vertices(const PolyMesh& mesh) {
-  std::vector<std::uint8_t> is_used(mesh.positions.size(), 0);
-  for (const Index v : mesh.corners) is_used[v] = 1;
-  std::vector<Vec3> used;
-  for (std::size_t v = 0; v < is_used.size(); ++v) {
-    if (is_used[v] != 0) used.push_back(mesh.positions[v]);
-  }
-  return used;
-}
-
 void require_finite(const PolyMesh& mesh) {
   for (std::size_t c = 0; c < mesh.corners.size(); ++c) {
     if (!mesh.positions[mesh.corners[c]].allFinite()) {
@@ -125,9 +114,10 @@ EvaluateResult evaluate_mesh(const TriMesh& reference, const PrincipalField* fie
                                                       "the reference");
   const evaluation::MeasuredSurface candidate_surface(local.positions, triangles.corners,
                                                       "the candidate");
-  const std::vector<Vec3> candidate_vertices = used_vertices(local);
+  const std::vector<Vec3> reference_vertices = reference_surface.vertices();
+  const std::vector<Vec3> candidate_vertices = candidate_surface.vertices();
   const evaluation::Farthest farthest = evaluation::report_deviation(
-      {reference_surface, reference.positions}, {candidate_surface, candidate_vertices},
+      {reference_surface, reference_vertices}, {candidate_surface, candidate_vertices},
       reference.diagonal, options.samples, observer, report);
   if (options.tolerance) require_within(*options.tolerance, farthest, reference);
 

@@ -3,14 +3,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 #include "common/core/error.h"
+#include "common/geometry/flat_triangle.h"
 
 namespace strake::evaluation {
 namespace {
-
-constexpr double kNoArea = 1e-14;  // of the longest edge squared
 
 // The additive recurrence of Roberts (2018) in three dimensions: powers of 1 / g, g^4 = g + 1.
 constexpr std::array<double, 3> kStep = {0.8191725133961645, 0.6710436067037893,
@@ -25,13 +25,9 @@ std::vector<Index> triangles_with_area(const std::vector<Vec3>& positions,
   std::vector<Index> kept;
   kept.reserve(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const Vec3& a = positions[triangles[t][0]];
-    const Vec3& b = positions[triangles[t][1]];
-    const Vec3& c = positions[triangles[t][2]];
-    const double longest2 =
-        std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-    const double area = (b - a).cross(c - a).norm() / 2;
-    if (area > kNoArea * longest2 && std::isfinite(area)) kept.push_back(static_cast<Index>(t));
+    const auto& [a, b, c] = triangles[t];
+    if (is_flat_triangle(positions[a], positions[b], positions[c])) continue;
+    kept.push_back(static_cast<Index>(t));
   }
   if (kept.empty()) throw PreconditionError(std::string(what) + " has no face with an area");
   return kept.size() < triangles.size() ? kept : std::vector<Index>();
@@ -60,6 +56,18 @@ MeasuredSurface::MeasuredSurface(const std::vector<Vec3>& positions,
     sum += cross(t).norm() / 2;
     area_up_to_.push_back(sum);
   }
+}
+
+std::vector<Vec3> MeasuredSurface::vertices() const {
+  std::vector<std::uint8_t> is_used(distance_.positions().size(), 0);
+  for (const auto& triangle : distance_.triangles()) {
+    for (const Index v : triangle) is_used[v] = 1;
+  }
+  std::vector<Vec3> used;
+  for (std::size_t v = 0; v < is_used.size(); ++v) {
+    if (is_used[v] != 0) used.push_back(distance_.positions()[v]);
+  }
+  return used;
 }
 
 Vec3 MeasuredSurface::cross(Index triangle) const {

@@ -18,8 +18,8 @@ struct SurfaceSample {
 
 /// Triangles to measure on: area-weighted samples from them, nearest points on them.
 ///
-/// Triangles without area (1e-14 of their longest edge squared) are left out: they have no normal,
-/// and their neighbours cover the same place.
+/// Triangles without area (see `is_flat_triangle`) are left out: they have no normal, and where
+/// their neighbours do not cover the same place there is nothing to see.
 class MeasuredSurface {
  public:
   /// \param positions, triangles  kept by reference
@@ -30,6 +30,9 @@ class MeasuredSurface {
   /// Sample i of n: the area is walked in n equal steps, with a low-discrepancy place in each, so
   /// that a sum over all of them converges faster than with random points. Depends on i and n only.
   [[nodiscard]] SurfaceSample sample(std::int64_t i, std::int64_t n) const;
+
+  /// The vertices of triangles with an area, ascending by number.
+  [[nodiscard]] std::vector<Vec3> vertices() const;
 
   [[nodiscard]] const SurfaceDistance& distance() const { return distance_; }
   /// Unit normal of a triangle, by its index in `distance()`.

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/geometry/flat_triangle.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_edges.h"
 #include "common/geometry/poly_topology/poly_topology.h"
@@ -17,9 +18,7 @@
 namespace strake {
 namespace {
 
-/// Height of a face, in longest sides, up to which it has no area; and times that edges are turned.
-constexpr double kFlat = 1e-9;
-constexpr int kMostTurns = 10;
+constexpr int kMostTurns = 10;  ///< times that edges are turned
 
 /// The side of a face after this corner is its longest.
 std::size_t longest_side(const std::vector<Vec3>& positions, std::span<const Index> face) {
@@ -37,7 +36,7 @@ std::size_t longest_side(const std::vector<Vec3>& positions, std::span<const Ind
 bool is_flat(const std::vector<Vec3>& positions, std::span<const Index> face) {
   const std::size_t i = longest_side(positions, face);
   const double length = (positions[face[(i + 1) % face.size()]] - positions[face[i]]).norm();
-  return newell_normal(positions, face).norm() <= kFlat * length * length;
+  return newell_normal(positions, face).norm() <= kFlatHeight * length * length;
 }
 
 Index flat_count(const PolyMesh& mesh) {

@@ -19,8 +19,10 @@ constexpr Index kMostFaces = 200000;
 constexpr std::size_t kMostPlaces = 1000;
 constexpr double kMostShare = 0.3;
 /// Share of faces that cross from which on attempts are given up after the first ones in vain.
-constexpr double kLargeShare = 0.1;
+constexpr double kLargeShare = 0.05;
 constexpr int kShortPatience = 2;
+/// Attempts in a row that may leave no fewer faces that cross than the best one before.
+constexpr int kMostWithoutGain = 2;
 
 /// One more attempt; nothing where it comes to no result, or to none within a tolerance.
 std::optional<Attempt> attempt_again(const Again& again, Session session,
@@ -34,28 +36,37 @@ std::optional<Attempt> attempt_again(const Again& again, Session session,
   }
 }
 
+/// Whether there is still a place beside each one there was.
+/// \param near  distance up to which it is beside
+bool are_still_there(const std::vector<Vec3>& before, const std::vector<Vec3>& now, double near) {
+  return std::ranges::all_of(before, [&](const Vec3& p) {
+    return std::ranges::any_of(now, [&](const Vec3& q) { return (p - q).norm() <= near; });
+  });
+}
+
 }  // namespace
 
-Attempt part_faces(const Attempt& first, Index faces, int patience, const Again& again,
+Attempt part_faces(const Attempt& first, const ResultSize& size, int patience, const Again& again,
                    const std::function<void(Attempt&)>& keep) {
   Attempt best = first;
   Attempt last = first;
   bool is_last_best = true;
   const auto most =
-      std::min(kMostPlaces, static_cast<std::size_t>(kMostShare * static_cast<double>(faces)));
-  const double share = static_cast<double>(first.places.size()) / faces;
+      std::min(kMostPlaces, static_cast<std::size_t>(kMostShare * static_cast<double>(size.faces)));
+  const double share = static_cast<double>(first.places.size()) / size.faces;
   if (share > kLargeShare) patience = std::min(patience, kShortPatience);
+  int without_gain = 0;
   const auto is_worth_it = [&] {
-    return patience > 0 && !best.places.empty() && best.places.size() <= most;
+    return patience > 0 && without_gain < kMostWithoutGain && !best.places.empty() &&
+           best.places.size() <= most;
   };
   const Index attempts =
-      std::clamp<Index>(kMostFaces / std::max<Index>(faces, 1), 1, kMostAttempts);
+      std::clamp<Index>(kMostFaces / std::max<Index>(size.faces, 1), 1, kMostAttempts);
   for (Index i = 0; i < attempts && is_worth_it(); ++i) {
     Session session = last.done;
-    const std::vector<Vec3> before = last.places;
     session.say(fmt::format("{} faces cross; tracing closer lines around {} places",
                             best.places.size(), last.places.size()));
-    std::optional<Attempt> next = attempt_again(again, std::move(session), before);
+    std::optional<Attempt> next = attempt_again(again, std::move(session), last.places);
     if (!next) {
       is_last_best = false;
       break;
@@ -63,8 +74,13 @@ Attempt part_faces(const Attempt& first, Index faces, int patience, const Again&
     last = *std::move(next);
     if (last.misses_goal || 2 * last.places.size() > best.places.size()) --patience;
     is_last_best = !last.misses_goal && last.places.size() < best.places.size();
-    if (is_last_best) best = last;
-    if (last.places == before) break;  // lines are as close as they may be: all would be the same
+    without_gain = is_last_best ? 0 : without_gain + 1;
+    if (is_last_best) {
+      best = last;
+    } else if (last.places.size() == best.places.size() &&
+               are_still_there(best.places, last.places, size.cell)) {
+      break;
+    }
   }
   if (!is_last_best) keep(best);
   return best;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "common/core/error.h"
 #include "common/core/tolerance_error.h"
 #include "common/geometry/face_crossings/crossing_places.h"
+#include "common/geometry/mesh_measures.h"
 #include "stages/mesh/mesh.h"
 #include "strake/chain/attempt.h"
 #include "strake/chain/goal_warnings.h"
@@ -51,9 +53,13 @@ constexpr double kMended = 0.3;
 constexpr double kTangledResult = 0.1;
 constexpr int kMostTimesCloser = 4;
 /// Attempts in vain to part faces that cross; within a tolerance the input's own faces have been
-/// tried for them before.
+/// tried for them before, and where nobody wants a count results are to come soon.
 constexpr int kPatience = 5;
 constexpr int kPatienceWithinTolerance = 2;
+constexpr int kPatienceWithoutGoal = 2;
+/// Vertices, over those of the first result, that are looked for where nobody wants a count and
+/// lines are traced closer in places.
+constexpr double kRoomToMend = 1.05;
 /// Share of the distances of lines around faces that cross.
 constexpr double kCloserWhereCrossing = 0.7;
 /// Share of the distances around details that lines miss.
@@ -91,6 +97,11 @@ bool may_be_too_coarse(const Session& session, const char* port) {
 /// \param places  of the faces at a port that cross \return their share
 double crossing_share(const Session& session, const char* port, const std::vector<Vec3>& places) {
   return static_cast<double>(places.size()) / session.get<QuadMesh>(port).mesh.face_count();
+}
+
+ResultSize size_of(const Session& session, const char* port) {
+  const Index faces = session.get<QuadMesh>(port).mesh.face_count();
+  return {faces, std::sqrt(surface_area(session.get<TriMesh>("mesh")) / faces)};
 }
 
 /// Share of the faces that lines give that cross.
@@ -241,6 +252,34 @@ bool is_exceeded(const Session& session, const LineAim& aim) {
   return given > aim.wanted && aim.miss(given) > kCountTolerance;
 }
 
+/// Wants lines closer around places. \param factor  on distances there, from 0 to 1
+using WantCloser = std::function<void(Session&, const std::vector<Vec3>& places, double factor)>;
+
+/// Parts faces that cross, and brings lost details back, by closer lines there; the count is looked
+/// for again each time, from the scale on that `want_closer` leaves.
+/// \param patience  as of `part_faces`
+/// \return the best attempt, which is kept
+Attempt mend_by_closer_lines(const Attempt& first, const GoalStages& stages, const LineAim& aim,
+                             const WantCloser& want_closer, int patience,
+                             CrossingPlaces& crossing) {
+  const double first_miss = miss_of(first, aim);
+  const auto closer_by = [&](double factor, bool with_strips) {
+    return [&, factor, with_strips](Session next, const std::vector<Vec3>& places) {
+      want_closer(next, places, factor);
+      search_scale(next, stages, aim, with_strips);
+      Attempt attempt = fit_to_count(next, stages, aim, crossing);
+      attempt.misses_goal = miss_of(attempt, aim) > std::max(first_miss, kCountTolerance);
+      return attempt;
+    };
+  };
+  const auto keep = [&](Attempt& attempt) { keep_attempt(attempt, stages); };
+  Attempt best = part_faces(first, size_of(first.done, "fitted"), patience,
+                            closer_by(kCloserWhereCrossing, false), keep);
+  // Where lines miss the count they have no room for details.
+  if (first_miss > kCountTolerance) return best;
+  return regain_details(best, closer_by(kCloserAtDetails, true), keep);
+}
+
 /// Traces, feeds errors back, looks for the count, fits, and traces closer where faces cross.
 void trace_to_count(Session& session, const GoalStages& stages, const LineAim& aim,
                     std::optional<std::int64_t> feedback_rounds) {
@@ -267,24 +306,8 @@ void trace_to_count(Session& session, const GoalStages& stages, const LineAim& a
   }
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
   const Attempt first = fit_either(session, stages, aim, crossing, has_strips);
-  const double first_miss = miss_of(first, aim);
-  const auto closer_by = [&](double factor, bool with_strips) {
-    return [&, factor, with_strips](Session next, const std::vector<Vec3>& places) {
-      want_relatively_closer(next, places, factor);
-      search_scale(next, stages, aim, with_strips);
-      Attempt attempt = fit_to_count(next, stages, aim, crossing);
-      attempt.misses_goal = miss_of(attempt, aim) > std::max(first_miss, kCountTolerance);
-      return attempt;
-    };
-  };
-  const auto keep = [&](Attempt& attempt) { keep_attempt(attempt, stages); };
-  const Index faces = first.done.get<QuadMesh>("fitted").mesh.face_count();
-  Attempt best = part_faces(first, faces, kPatience, closer_by(kCloserWhereCrossing, false), keep);
-  // Where lines miss the count they have no room for details.
-  if (first_miss <= kCountTolerance) {
-    best = regain_details(best, closer_by(kCloserAtDetails, true), keep);
-  }
-  session = best.done;
+  session =
+      mend_by_closer_lines(first, stages, aim, want_relatively_closer, kPatience, crossing).done;
 }
 
 /// Traces, and closer where so many faces cross that lines are too coarse for the shape. Then makes
@@ -315,12 +338,21 @@ bool trace_freely(Session& session, const GoalStages& stages, std::int64_t feedb
   return true;
 }
 
-/// Fits what the present lines give, with some more vertices by dividing the worst cells.
+/// Fits what the present lines give, with some more vertices by dividing the worst cells, and again
+/// with closer lines where faces cross or a detail is lost.
 /// \param left  share of these, as in LineAim \return the port of the result
 std::string fit_freely(Session& session, const GoalStages& stages, double left) {
   const std::int64_t count = count_of(session, "quads", Counted::vertices);
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
-  session = fit_to_count(session, stages, {Counted::vertices, count, count, left}, crossing).done;
+  const Attempt first =
+      fit_to_count(session, stages, {Counted::vertices, count, count, left}, crossing);
+  const std::int64_t more = std::llround(kRoomToMend * static_cast<double>(count));
+  const LineAim aim{Counted::vertices, more, more, left};
+  const auto want_closer = [&](Session& next, const std::vector<Vec3>& places, double factor) {
+    want_closer_for_as_many(next, stages, places, factor);
+  };
+  session =
+      mend_by_closer_lines(first, stages, aim, want_closer, kPatienceWithoutGoal, crossing).done;
   if (session.has("uncrossed")) session.keep(stages.uncross);
   return result_port(session);
 }
@@ -386,8 +418,8 @@ std::string meet_tolerance(Session& session, const GoalStages& stages, const std
     keep_fitted(attempt.meshed, stages);
     attempt.done.keep(stages.refine);
   };
-  const Index faces = first.done.get<QuadMesh>("refined").mesh.face_count();
-  session = part_faces(first, faces, kPatienceWithinTolerance, again, keep).done;
+  const ResultSize size = size_of(first.done, "refined");
+  session = part_faces(first, size, kPatienceWithinTolerance, again, keep).done;
   warn_of_excess(session);
   return "refined";
 }

@@ -151,6 +151,15 @@ void want_relatively_closer(Session& session, const std::vector<Vec3>& places, d
               places, factor);
 }
 
+void want_closer_for_as_many(Session& session, const GoalStages& stages,
+                             const std::vector<Vec3>& places, double factor) {
+  const auto& mesh = session.get<TriMesh>("mesh");
+  const double cells = cells_at(mesh, used_distances(session.get<LineSet>("lines")));
+  want_relatively_closer(session, places, factor);
+  const double more = cells_at(mesh, session.get<SizeField>("size")) / cells;
+  scale_lines(stages, std::sqrt(kEvenExcess * more));
+}
+
 void fit_refined(Session& session, const GoalStages& stages) {
   session.provide_as("quads", session.get<QuadMesh>("refined"), "refined");
   session.run(stages.fit);

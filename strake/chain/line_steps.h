@@ -53,4 +53,8 @@ void want_closer_only_there(Session& session, const GoalStages& stages,
 /// Likewise where a count is wanted, which scales all distances: elsewhere they keep their ratios.
 void want_relatively_closer(Session& session, const std::vector<Vec3>& places, double factor);
 
+/// Likewise where no count scales them: scales all distances so that there are about as many cells.
+void want_closer_for_as_many(Session& session, const GoalStages& stages,
+                             const std::vector<Vec3>& places, double factor);
+
 }  // namespace strake

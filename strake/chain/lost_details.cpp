@@ -20,8 +20,11 @@ constexpr int kMostAttempts = 2;
 /// lines are too coarse all over.
 constexpr Index kMostFaces = 10000;
 constexpr double kMostCross = 0.02;
-/// Distance from the surface, in mean lengths of cells, from which on a detail is lost.
+/// Distance from the surface, in mean lengths of cells, from which on a detail is lost. A first
+/// look takes few samples: none is where less than this share of that distance is found with those.
 constexpr double kLost = 0.3;
+constexpr double kFarFromLost = 0.5;
+constexpr CellSampling kFirstLook = {.rows = 2, .input_step = 1};
 /// Share of the largest distance from which on a place is looked at.
 constexpr double kAmongTheWorst = 0.5;
 /// Share of the largest distance that is less, and of the root mean square that is hardly more.
@@ -44,9 +47,12 @@ Vec3 middle_of(const PolyMesh& mesh, Index face) {
 Distance distance_of(const Session& session) {
   const auto& mesh = session.get<TriMesh>("mesh");
   const auto& result = session.get<QuadMesh>(result_port(session));
-  const ErrorMap map = measure_cells(ComparedSurfaces(mesh, result));
-  Distance distance{map.rms, map.largest, {}};
+  const ComparedSurfaces surfaces(mesh, result);
   const double cell = std::sqrt(surface_area(mesh) / result.mesh.face_count());
+  const ErrorMap first = measure_cells(surfaces, kFirstLook);
+  if (first.largest < kFarFromLost * kLost * cell) return {first.rms, first.largest, {}};
+  const ErrorMap map = measure_cells(surfaces);
+  Distance distance{map.rms, map.largest, {}};
   if (map.largest <= kLost * cell) return distance;
   const double far = std::max(kLost * cell, kAmongTheWorst * map.largest);
   for (Index f = 0; f < result.mesh.face_count(); ++f) {
@@ -86,6 +92,7 @@ Attempt regain_details(const Attempt& first, const Again& again,
     }
     distance = distance_of(last.done);
     is_last_best = is_better(last, distance, best, least);
+    if (distance.largest >= least.largest) break;
     if (!is_last_best) continue;
     best = last;
     least = distance;

@@ -6,7 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <functional>
+#include <limits>
 #include <utility>
+
+#include "common/geometry/flat_triangle.h"
 
 namespace strake {
 namespace {
@@ -32,15 +36,37 @@ struct Corner {
 };
 using Piece = std::array<Corner, 3>;
 
+/// The triangles of a surface that nobody sees. \return [triangles] 1: without area; empty where
+/// none or all are
+std::vector<char> flat_triangles(const SurfaceDistance& surface) {
+  std::vector<char> is_flat(surface.triangles().size());
+  const std::vector<Vec3>& p = surface.positions();
+  tbb::parallel_for(std::size_t{0}, is_flat.size(), [&](std::size_t t) {
+    const auto& [a, b, c] = surface.triangles()[t];
+    is_flat[t] = is_flat_triangle(p[a], p[b], p[c]) ? 1 : 0;
+  });
+  const bool are_like =
+      std::ranges::adjacent_find(is_flat, std::ranges::not_equal_to()) == is_flat.end();
+  return are_like ? std::vector<char>() : is_flat;
+}
+
 /// Proves pieces of one surface to be near the other one, or finds where they are not.
 class PieceCheck {
  public:
-  PieceCheck(const SurfaceDistance& other, double tolerance)
-      : other_(other), tolerance_(tolerance) {}
+  /// \param other_flat  as `flat_triangles` gives: nothing is near to these
+  PieceCheck(const SurfaceDistance& other, const std::vector<char>& other_flat, double tolerance)
+      : other_(other), tolerance_(tolerance) {
+    if (!other_flat.empty()) {
+      has_area_ = [&other_flat](Index t) { return other_flat[t] == 0; };
+    }
+  }
 
-  /// \param guess  triangle of the other surface near `p`; kNone: none is known
+  /// \param guess  triangle of the other surface near `p`, with an area; kNone: none is known
   [[nodiscard]] Corner corner(const Vec3& p, Index guess) const {
-    return {p, other_.closest_near(p, guess)};
+    if (!has_area_) return {p, other_.closest_near(p, guess)};
+    const double reach =
+        guess == kNone ? std::numeric_limits<double>::infinity() : distance_from(guess, p);
+    return {p, other_.closest_if(p, reach, has_area_)};
   }
 
   /// Calls found(corner, distance) for places of the piece that are too far, or not proven not to
@@ -172,6 +198,7 @@ class PieceCheck {
 
   const SurfaceDistance& other_;
   double tolerance_;
+  std::function<bool(Index)> has_area_;  ///< of the other surface; empty: all have one
 };
 
 /// What is known of one triangle: its worst place that is beyond the tolerance, if any.
@@ -206,9 +233,11 @@ struct Verdicts {
 Verdicts check_surface(const SurfaceDistance& own, const SurfaceDistance& other, double tolerance,
                        const std::vector<char>& is_proven) {
   Verdicts found;
+  const std::vector<char> is_flat = flat_triangles(own);
+  const std::vector<char> other_flat = flat_triangles(other);
   std::vector<Index> corner_of(own.positions().size(), kNone);
   for (std::size_t t = 0; t < own.triangles().size(); ++t) {
-    if (is_proven[t] != 0) continue;
+    if (is_proven[t] != 0 || (!is_flat.empty() && is_flat[t] != 0)) continue;
     found.triangle.push_back(static_cast<Index>(t));
     for (const Index v : own.triangles()[t]) corner_of[v] = 0;
   }
@@ -218,7 +247,7 @@ Verdicts check_surface(const SurfaceDistance& own, const SurfaceDistance& other,
     corner_of[v] = static_cast<Index>(vertices.size());
     vertices.push_back(static_cast<Index>(v));
   }
-  const PieceCheck check(other, tolerance);
+  const PieceCheck check(other, other_flat, tolerance);
   std::vector<Corner> corners(vertices.size());
   const tbb::blocked_range<std::size_t> all(0, corners.size(), kCornersInARow);
   tbb::parallel_for(all, [&](const auto& row) {

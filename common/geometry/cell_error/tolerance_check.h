@@ -25,7 +25,8 @@ struct Excess {
 /// Not by samples: the distance to one triangle is convex, so where all corners of a piece are
 /// within the tolerance of the same triangle of the other surface, all of the piece is. Pieces for
 /// which that does not hold are cut where one triangle ceases to be near, or halved, down to a
-/// small share of the tolerance; what is undecided then counts as an excess.
+/// small share of the tolerance; what is undecided then counts as an excess. Triangles without area
+/// are no part of a surface: they need not be near, and nothing is near to them.
 /// \param tolerance  model units, positive
 /// \return the worst place of each triangle, of either surface, that is not proven to be within the
 ///         tolerance everywhere; none where all is. Deterministic for any thread count

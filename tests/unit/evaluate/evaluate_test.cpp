@@ -138,6 +138,17 @@ TEST(Evaluate, CubesInsideEachOther) {
   EXPECT_NEAR(number(report, "distance.rms"), std::sqrt((square + h * h) / 2), 0.002 * h);
 }
 
+// What nobody sees is not measured: neither from its vertices nor to it.
+TEST(Evaluate, FacesWithoutAreaAreNoSurface) {
+  const PolyMesh square = shapes::square(3, 0);
+  PolyMesh spiked = square;
+  const Index first = spiked.vertex_count();
+  for (const double x : {3.0, 5.0, 4.0}) spiked.positions.emplace_back(x, 0, 0);
+  spiked.add_face(std::array<Index, 3>{first, first + 1, first + 2});
+  EXPECT_NEAR(number(evaluated(shapes::reference(square), spiked), "distance.max"), 0, 1e-12);
+  EXPECT_NEAR(number(evaluated(shapes::reference(spiked), square), "distance.max"), 0, 1e-12);
+}
+
 TEST(Evaluate, RoofsNormalsDeviateByItsSlope) {
   const double slope_deg = 20;
   const double rise = std::tan(slope_deg * std::numbers::pi / 180);

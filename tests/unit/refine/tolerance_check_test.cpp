@@ -86,6 +86,39 @@ TEST(ToleranceCheck, FindsWhatLiesBetweenAllCorners) {
   EXPECT_TRUE(is_within(c, 1.01 * h));
 }
 
+/// A unit square, and beside it a triangle of length one that has this height.
+PolyMesh square_and_needle(double height) {
+  PolyMesh mesh;
+  mesh.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0),       Vec3(0, 1, 0),
+                    Vec3(1, 0, 0), Vec3(2, 0, 0), Vec3(1.5, height, 0)};
+  mesh.add_face(std::array<Index, 3>{0, 1, 2});
+  mesh.add_face(std::array<Index, 3>{0, 2, 3});
+  mesh.add_face(std::array<Index, 3>{4, 5, 6});
+  return mesh;
+}
+
+/// Nobody sees a triangle without area: it takes the place of nothing, and nothing must take its.
+TEST(ToleranceCheck, TrianglesWithoutAreaAreNoSurface) {
+  const PolyMesh thin = square_and_needle(0.01);
+  const PolyMesh flat = square_and_needle(0);
+  PolyMesh square;
+  square.positions.assign(thin.positions.begin(), thin.positions.begin() + 4);
+  for (Index f = 0; f < 2; ++f) square.add_face(thin.face(f));
+  const auto is_near = [](const PolyMesh& input, const PolyMesh& result) {
+    Case c;
+    c.mesh = support::plain_tri_mesh(input);
+    c.quads.mesh = result;
+    return is_within(c, 0.1);
+  };
+  EXPECT_FALSE(is_near(thin, flat));
+  EXPECT_FALSE(is_near(flat, thin));
+  EXPECT_FALSE(is_near(thin, square));
+  EXPECT_TRUE(is_near(flat, square));
+  EXPECT_TRUE(is_near(square, flat));
+  EXPECT_TRUE(is_near(flat, flat));
+  EXPECT_TRUE(is_near(thin, thin));
+}
+
 /// Two ways to cut the same plane into triangles, far larger than the tolerance: pieces that
 /// straddle an edge of the other surface are cut there. Halved, they would be some ten million.
 TEST(ToleranceCheck, ProvesLargeFlatsWithinASmallTolerance) {
