@@ -23,8 +23,8 @@ OptionList ImportOptions::declare() {
        .target = &facet_height,
        .unit = "length",
        .help = "Edges between flat polygons are kept, too, that stand out by more than this, where "
-               "nearly all edges are such; with a count of at least 1.2 times the input's vertices "
-               "3 % of a cell or less. 100% keeps none.",
+               "nearly all edges are such; with a count above the input's vertices strake remesh "
+               "looks whether that is better. 100% keeps none.",
        .min = 1e-6,
        .max = 1},
       {.name = "attribute-features",

@@ -13,8 +13,11 @@ namespace strake::import {
 /// Straight ways across both faces, at right angles to the middle of the edge and up to the next
 /// barrier, tell. The edge does not stand alone where the surface turns about it by more than half
 /// of `bend` again within 5 % of the diagonal on one side, or where on either side, at any
-/// distance, one edge does. \param h        an inner half-edge \param bend     radians \param
-/// normals  [F] unit
+/// distance, one edge does.
+///
+/// \param normals  [F] unit
+/// \param h        an inner half-edge
+/// \param bend     radians
 bool stands_alone(const TriMesh& mesh, const std::vector<Vec3>& normals, Index h, double bend);
 
 /// Whether straight ways across both faces of an inner half-edge, from its middle, go on for its

@@ -36,24 +36,16 @@ std::optional<Attempt> attempt_again(const Again& again, Session session,
   }
 }
 
-/// Whether there is still a place beside each one there was.
-/// \param near  distance up to which it is beside
-bool are_still_there(const std::vector<Vec3>& before, const std::vector<Vec3>& now, double near) {
-  return std::ranges::all_of(before, [&](const Vec3& p) {
-    return std::ranges::any_of(now, [&](const Vec3& q) { return (p - q).norm() <= near; });
-  });
-}
-
 }  // namespace
 
-Attempt part_faces(const Attempt& first, const ResultSize& size, int patience, const Again& again,
+Attempt part_faces(const Attempt& first, Index faces, int patience, const Again& again,
                    const std::function<void(Attempt&)>& keep) {
   Attempt best = first;
   Attempt last = first;
   bool is_last_best = true;
   const auto most =
-      std::min(kMostPlaces, static_cast<std::size_t>(kMostShare * static_cast<double>(size.faces)));
-  const double share = static_cast<double>(first.places.size()) / size.faces;
+      std::min(kMostPlaces, static_cast<std::size_t>(kMostShare * static_cast<double>(faces)));
+  const double share = static_cast<double>(first.places.size()) / faces;
   if (share > kLargeShare) patience = std::min(patience, kShortPatience);
   int without_gain = 0;
   const auto is_worth_it = [&] {
@@ -61,12 +53,13 @@ Attempt part_faces(const Attempt& first, const ResultSize& size, int patience, c
            best.places.size() <= most;
   };
   const Index attempts =
-      std::clamp<Index>(kMostFaces / std::max<Index>(size.faces, 1), 1, kMostAttempts);
+      std::clamp<Index>(kMostFaces / std::max<Index>(faces, 1), 1, kMostAttempts);
   for (Index i = 0; i < attempts && is_worth_it(); ++i) {
     Session session = last.done;
+    const std::vector<Vec3> before = last.places;
     session.say(fmt::format("{} faces cross; tracing closer lines around {} places",
                             best.places.size(), last.places.size()));
-    std::optional<Attempt> next = attempt_again(again, std::move(session), last.places);
+    std::optional<Attempt> next = attempt_again(again, std::move(session), before);
     if (!next) {
       is_last_best = false;
       break;
@@ -75,12 +68,8 @@ Attempt part_faces(const Attempt& first, const ResultSize& size, int patience, c
     if (last.misses_goal || 2 * last.places.size() > best.places.size()) --patience;
     is_last_best = !last.misses_goal && last.places.size() < best.places.size();
     without_gain = is_last_best ? 0 : without_gain + 1;
-    if (is_last_best) {
-      best = last;
-    } else if (last.places.size() == best.places.size() &&
-               are_still_there(best.places, last.places, size.cell)) {
-      break;
-    }
+    if (is_last_best) best = last;
+    if (last.places == before) break;  // lines are as close as they may be: all would be the same
   }
   if (!is_last_best) keep(best);
   return best;

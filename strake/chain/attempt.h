@@ -19,20 +19,16 @@ struct Attempt {
 /// See `part_faces`.
 using Again = std::function<Attempt(Session, const std::vector<Vec3>& places)>;
 
-/// How large a result is.
-struct ResultSize {
-  Index faces;
-  double cell;  ///< mean length of these, model units
-};
-
 /// Where lines lie across a tip or a fold, its cells come to cross. Makes the result again with
-/// closer lines at such faces, as long as that helps: not where an attempt leaves as many in the
-/// same places, nor after two in a row that leave no fewer of them. \param first     does not miss
-/// its goal \param size      of its result: the more faces, the fewer attempts \param patience
-/// attempts that may leave more than half of the faces that cross \param again     makes and keeps
-/// a result like a session's, with closer lines around places \param keep      keeps one again
+/// closer lines at such faces, as long as that helps: not after two attempts in a row that leave no
+/// fewer of them.
+/// \param first     does not miss its goal
+/// \param faces     of its result: the more, the fewer attempts
+/// \param patience  attempts that may leave more than half of the faces that cross
+/// \param again     makes and keeps a result like a session's, with closer lines around places
+/// \param keep      keeps one again
 /// \return the attempt that meets its goal with the fewest faces that cross; it is the one kept
-Attempt part_faces(const Attempt& first, const ResultSize& size, int patience, const Again& again,
+Attempt part_faces(const Attempt& first, Index faces, int patience, const Again& again,
                    const std::function<void(Attempt&)>& keep);
 
 }  // namespace strake

@@ -14,7 +14,7 @@ namespace strake {
 namespace {
 
 /// Largest distance, in mean cells, and share of odd faces from which on a result is poor.
-constexpr double kFar = 0.1;
+constexpr double kFar = 0.05;
 constexpr double kManyOdd = 0.08;
 /// Share of the distance of the other result that is clearly nearer.
 constexpr double kNearer = 0.5;
@@ -36,8 +36,7 @@ bool is_better(const ResultFaults& other, const ResultFaults& faults) {
   }
   const bool is_nearer =
       other.largest < kNearer * faults.largest && other.odd <= faults.odd + kMoreOdd;
-  const bool has_fewer_odd =
-      other.odd < faults.odd - kFewerOdd && other.largest <= faults.largest;
+  const bool has_fewer_odd = other.odd < faults.odd - kFewerOdd && other.largest <= faults.largest;
   return is_nearer || has_fewer_odd;
 }
 

@@ -14,8 +14,8 @@ namespace strake {
 
 /// How a chain comes to a result.
 struct WayToResult {
-  std::vector<const Stage*> stages;              ///< whose options it changes
-  std::function<void(Session&)> import_mesh;     ///< from "input"
+  std::vector<const Stage*> stages;                 ///< whose options it changes
+  std::function<void(Session&)> import_mesh;        ///< from "input"
   std::function<std::string(Session&)> reach_goal;  ///< \return the port of the result
 };
 

@@ -13,7 +13,6 @@
 #include "common/core/error.h"
 #include "common/core/tolerance_error.h"
 #include "common/geometry/face_crossings/crossing_places.h"
-#include "common/geometry/mesh_measures.h"
 #include "stages/mesh/mesh.h"
 #include "strake/chain/attempt.h"
 #include "strake/chain/goal_warnings.h"
@@ -97,11 +96,6 @@ bool may_be_too_coarse(const Session& session, const char* port) {
 /// \param places  of the faces at a port that cross \return their share
 double crossing_share(const Session& session, const char* port, const std::vector<Vec3>& places) {
   return static_cast<double>(places.size()) / session.get<QuadMesh>(port).mesh.face_count();
-}
-
-ResultSize size_of(const Session& session, const char* port) {
-  const Index faces = session.get<QuadMesh>(port).mesh.face_count();
-  return {faces, std::sqrt(surface_area(session.get<TriMesh>("mesh")) / faces)};
 }
 
 /// Share of the faces that lines give that cross.
@@ -273,7 +267,7 @@ Attempt mend_by_closer_lines(const Attempt& first, const GoalStages& stages, con
     };
   };
   const auto keep = [&](Attempt& attempt) { keep_attempt(attempt, stages); };
-  Attempt best = part_faces(first, size_of(first.done, "fitted"), patience,
+  Attempt best = part_faces(first, first.done.get<QuadMesh>("fitted").mesh.face_count(), patience,
                             closer_by(kCloserWhereCrossing, false), keep);
   // Where lines miss the count they have no room for details.
   if (first_miss > kCountTolerance) return best;
@@ -418,8 +412,8 @@ std::string meet_tolerance(Session& session, const GoalStages& stages, const std
     keep_fitted(attempt.meshed, stages);
     attempt.done.keep(stages.refine);
   };
-  const ResultSize size = size_of(first.done, "refined");
-  session = part_faces(first, size, kPatienceWithinTolerance, again, keep).done;
+  const Index faces = first.done.get<QuadMesh>("refined").mesh.face_count();
+  session = part_faces(first, faces, kPatienceWithinTolerance, again, keep).done;
   warn_of_excess(session);
   return "refined";
 }
