@@ -44,10 +44,13 @@ MirrorLines::MirrorLines(const TriMesh& mesh) : mesh_(mesh) {
 }
 
 double MirrorLines::texture_area(Index face) const {
-  const TexturePoint* at = &mesh_.attributes.texture[3 * static_cast<std::size_t>(face)];
-  return ((at[1][0] - at[0][0]) * (at[2][1] - at[0][1]) -
-          (at[1][1] - at[0][1]) * (at[2][0] - at[0][0])) /
-         2;
+  const auto corner = [&](int i) {
+    const TexturePoint& at = mesh_.attributes.texture[3 * static_cast<std::size_t>(face) + i];
+    return Vec2(at[0], at[1]);
+  };
+  const Vec2 a = corner(1) - corner(0);
+  const Vec2 b = corner(2) - corner(0);
+  return (a.x() * b.y() - a.y() * b.x()) / 2;
 }
 
 bool MirrorLines::contains(Index halfedge) const {

@@ -26,8 +26,7 @@ std::size_t count_places(const PolyMesh& mesh) {
   std::ranges::copy_if(mesh.positions, std::back_inserter(places),
                        [](const Vec3& p) { return p.allFinite(); });
   std::ranges::sort(places, {}, [](const Vec3& p) { return std::tuple(p.x(), p.y(), p.z()); });
-  const auto copies = std::ranges::unique(places);
-  return places.size() - copies.size();
+  return static_cast<std::size_t>(std::unique(places.begin(), places.end()) - places.begin());
 }
 
 /// Area of the faces of a mesh as read, leaving out those that are none.
