@@ -52,10 +52,9 @@ constexpr double kMended = 0.3;
 constexpr double kTangledResult = 0.1;
 constexpr int kMostTimesCloser = 4;
 /// Attempts in vain to part faces that cross; within a tolerance the input's own faces have been
-/// tried for them before, and where nobody wants a count results are to come soon.
+/// tried for them before.
 constexpr int kPatience = 5;
 constexpr int kPatienceWithinTolerance = 2;
-constexpr int kPatienceWithoutGoal = 2;
 /// Vertices, over those of the first result, that are looked for where nobody wants a count and
 /// lines are traced closer in places.
 constexpr double kRoomToMend = 1.05;
@@ -251,11 +250,9 @@ using WantCloser = std::function<void(Session&, const std::vector<Vec3>& places,
 
 /// Parts faces that cross, and brings lost details back, by closer lines there; the count is looked
 /// for again each time, from the scale on that `want_closer` leaves.
-/// \param patience  as of `part_faces`
 /// \return the best attempt, which is kept
 Attempt mend_by_closer_lines(const Attempt& first, const GoalStages& stages, const LineAim& aim,
-                             const WantCloser& want_closer, int patience,
-                             CrossingPlaces& crossing) {
+                             const WantCloser& want_closer, CrossingPlaces& crossing) {
   const double first_miss = miss_of(first, aim);
   const auto closer_by = [&](double factor, bool with_strips) {
     return [&, factor, with_strips](Session next, const std::vector<Vec3>& places) {
@@ -267,7 +264,7 @@ Attempt mend_by_closer_lines(const Attempt& first, const GoalStages& stages, con
     };
   };
   const auto keep = [&](Attempt& attempt) { keep_attempt(attempt, stages); };
-  Attempt best = part_faces(first, first.done.get<QuadMesh>("fitted").mesh.face_count(), patience,
+  Attempt best = part_faces(first, first.done.get<QuadMesh>("fitted").mesh.face_count(), kPatience,
                             closer_by(kCloserWhereCrossing, false), keep);
   // Where lines miss the count they have no room for details.
   if (first_miss > kCountTolerance) return best;
@@ -300,8 +297,7 @@ void trace_to_count(Session& session, const GoalStages& stages, const LineAim& a
   }
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
   const Attempt first = fit_either(session, stages, aim, crossing, has_strips);
-  session =
-      mend_by_closer_lines(first, stages, aim, want_relatively_closer, kPatience, crossing).done;
+  session = mend_by_closer_lines(first, stages, aim, want_relatively_closer, crossing).done;
 }
 
 /// Traces, and closer where so many faces cross that lines are too coarse for the shape. Then makes
@@ -333,7 +329,7 @@ bool trace_freely(Session& session, const GoalStages& stages, std::int64_t feedb
 }
 
 /// Fits what the present lines give, with some more vertices by dividing the worst cells, and again
-/// with closer lines where faces cross or a detail is lost.
+/// with closer lines where a detail is lost and no faces cross.
 /// \param left  share of these, as in LineAim \return the port of the result
 std::string fit_freely(Session& session, const GoalStages& stages, double left) {
   const std::int64_t count = count_of(session, "quads", Counted::vertices);
@@ -345,8 +341,10 @@ std::string fit_freely(Session& session, const GoalStages& stages, double left) 
   const auto want_closer = [&](Session& next, const std::vector<Vec3>& places, double factor) {
     want_closer_for_as_many(next, stages, places, factor);
   };
+  // On broken meshes faces cross whatever is tried.
+  const bool is_sound = first.places.empty();
   session =
-      mend_by_closer_lines(first, stages, aim, want_closer, kPatienceWithoutGoal, crossing).done;
+      is_sound ? mend_by_closer_lines(first, stages, aim, want_closer, crossing).done : first.done;
   if (session.has("uncrossed")) session.keep(stages.uncross);
   return result_port(session);
 }
