@@ -48,18 +48,16 @@ class HeldWarnings : public StageObserver {
   void report(std::string_view phase, double fraction) override { user_.report(phase, fraction); }
   void say(const std::string& line) override {
     if (line.starts_with("warning: ")) {
-      held_.push_back(line);
+      lines_.push_back(line);
     } else {
       user_.say(line);
     }
   }
-  void release() const {
-    for (const std::string& line : held_) user_.say(line);
-  }
+  [[nodiscard]] const std::vector<std::string>& lines() const { return lines_; }
 
  private:
   StageObserver& user_;
-  std::vector<std::string> held_;
+  std::vector<std::string> lines_;
 };
 
 /// The values of all options of stages, to return to.
@@ -87,64 +85,63 @@ bool has_facets(const Session& session) {
   return false;
 }
 
+/// A result of which nothing is kept.
+struct Trial {
+  Session session;
+  std::string port;
+  std::vector<std::string> warnings;
+  ResultFaults faults;
+};
+
 }  // namespace
 
 std::string make_with_facets_if_better(Session& session, const WayToResult& way,
                                        const Option& facet_height, const Length& height,
                                        Counted counted, std::int64_t wanted) {
   StageObserver& user = session.observer();
-  const Session read = session;
   const OptionValues at_first(way.stages);
-  HeldWarnings of_plain(user);
-  session.report_to(of_plain);
-  way.import_mesh(session);
-  std::string port = way.reach_goal(session);
-  session.report_to(user);
-  const ResultFaults plain = faults_of(session, counted, wanted);
-  const auto keep_plain = [&] {
-    of_plain.release();
-    return port;
-  };
-  if (!is_poor(plain)) return keep_plain();
-
-  const OptionValues of_result(way.stages);
-  const auto begin_with_facets = [&](Session& again) {
+  const auto import_into = [&](Session& to, bool with_facets) {
     at_first.restore();
-    facet_height.parse_into(height.to_string());
-    way.import_mesh(again);
+    if (with_facets) facet_height.parse_into(height.to_string());
+    way.import_mesh(to);
   };
-  HeldWarnings of_faceted(user);
-  Session other = read;
-  other.keep_with({}, {});
-  other.report_to(of_faceted);
-  std::string other_port;
-  bool is_taken = false;
-  begin_with_facets(other);
-  if (has_facets(other)) {
-    user.say("the mesh is coarse for this count; keeping edges between its facets to compare");
+  const auto try_out = [&](bool with_facets) -> std::optional<Trial> {
+    HeldWarnings held(user);
+    Session tried = session;
+    tried.keep_with({}, {});
+    tried.report_to(held);
+    import_into(tried, with_facets);
+    if (with_facets && !has_facets(tried)) return std::nullopt;
+    if (with_facets) user.say("the mesh is coarse for this count; trying with edges of its facets");
+    const std::string port = way.reach_goal(tried);
+    tried.report_to(user);
+    return Trial{tried, port, held.lines(), faults_of(tried, counted, wanted)};
+  };
+
+  Trial taken = *try_out(false);
+  const OptionValues of_plain(way.stages);
+  bool with_facets = false;
+  if (is_poor(taken.faults)) {
     try {
-      other_port = way.reach_goal(other);
-      is_taken = is_better(faults_of(other, counted, wanted), plain);
+      std::optional<Trial> other = try_out(true);
+      with_facets = other && is_better(other->faults, taken.faults);
+      if (with_facets) taken = *std::move(other);
     } catch (const AlgorithmError& error) {
-      user.say(std::string("warning: left edges between facets out: ") + error.what());
+      user.say(std::string("warning: left edges of facets out: ") + error.what());
     }
   }
-  if (!is_taken) {
-    of_result.restore();
-    return keep_plain();
-  }
-  user.say("kept edges between facets");
-  of_faceted.release();
+  if (with_facets) user.say("kept edges of facets");
+  for (const std::string& line : taken.warnings) user.say(line);
   if (!session.keeps()) {
-    session = std::move(other);
-    session.report_to(user);
-    return other_port;
+    if (!with_facets) of_plain.restore();
+    session = std::move(taken.session);
+    return taken.port;
   }
+  // Once more: what is kept is to be of nothing else.
   HeldWarnings said_before(user);
-  session = read;
   session.report_to(said_before);
-  begin_with_facets(session);
-  port = way.reach_goal(session);
+  import_into(session, with_facets);
+  std::string port = way.reach_goal(session);
   session.report_to(user);
   return port;
 }

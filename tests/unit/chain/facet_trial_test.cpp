@@ -49,6 +49,7 @@ class Trial {
     if (keeps) {
       session.keep_with(
           [&](const Session::Kept& kept) {
+            ++kept_times;
             kept_features = std::ranges::count(kept.mesh.is_feature, 1);
             return std::string();
           },
@@ -80,6 +81,7 @@ class Trial {
 
   Listener listener;
   std::ptrdiff_t kept_features = 0;
+  int kept_times = 0;
 
  private:
   QuadMesh plain_;
@@ -142,13 +144,16 @@ TEST(FacetTrial, GoodResultsAreTakenAtOnce) {
   EXPECT_EQ(trial.listener.said, std::vector<std::string>{"warning: of none"});
 }
 
-TEST(FacetTrial, WhatIsTakenIsKept) {
+// A result that was not taken leaves nothing beside what was.
+TEST(FacetTrial, OnlyWhatIsTakenIsKept) {
   Trial with(off(), exact());
   with.run(true);
   EXPECT_GT(with.kept_features, 0);
+  EXPECT_EQ(with.kept_times, 1);
   Trial without(off(), triangles());
   without.run(true);
   EXPECT_EQ(without.kept_features, 0);
+  EXPECT_EQ(without.kept_times, 1);
 }
 
 }  // namespace
