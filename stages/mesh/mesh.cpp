@@ -290,8 +290,7 @@ MeshResult mesh_lines(const TriMesh& mesh, const LineSet& lines, const MeshOptio
   }
   MeshResult result;
   result.quads = assemble(mesh, cells.graph);
-  const Index at_sharp_points = meet_sharp_points(mesh, SurfaceDistance(mesh.positions, mesh.faces),
-                                                  !options.pure_quads, result.quads);
+  const Index at_sharp_points = meet_sharp_points(mesh, !options.pure_quads, result.quads);
   begin_faces_at_fans(result.quads.mesh);
   result.quads.mesh.attributes = carry_attributes(mesh, result.quads.mesh, result.quads.provenance);
 

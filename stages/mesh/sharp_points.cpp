@@ -13,6 +13,7 @@
 
 #include "common/geometry/nearest_on_surface.h"
 #include "common/geometry/poly_topology/face_shape.h"
+#include "common/geometry/surface_distance/surface_distance.h"
 #include "common/geometry/surface_lines.h"
 #include "common/geometry/surface_point.h"
 #include "common/geometry/topology/vertex_ring.h"
@@ -53,9 +54,9 @@ Vec3 axis_at(const TriMesh& mesh, Index vertex) {
 
 class SharpPoints {
  public:
-  SharpPoints(const TriMesh& mesh, const SurfaceDistance& surface, bool may_add, QuadMesh& quads)
+  SharpPoints(const TriMesh& mesh, bool may_add, QuadMesh& quads)
       : mesh_(mesh),
-        surface_(surface),
+        surface_(mesh.positions, mesh.faces),
         quads_(quads),
         nearest_(mesh, quads),
         lines_(mesh),
@@ -294,7 +295,7 @@ class SharpPoints {
   }
 
   const TriMesh& mesh_;
-  const SurfaceDistance& surface_;
+  SurfaceDistance surface_;
   QuadMesh& quads_;
   NearestOnSurface nearest_;
   SurfaceLines lines_;
@@ -306,11 +307,10 @@ class SharpPoints {
 
 }  // namespace
 
-Index meet_sharp_points(const TriMesh& mesh, const SurfaceDistance& surface, bool may_add,
-                        QuadMesh& quads) {
+Index meet_sharp_points(const TriMesh& mesh, bool may_add, QuadMesh& quads) {
   const std::vector<Index> tips = sharp_points(mesh);
   if (tips.empty()) return 0;
-  SharpPoints points(mesh, surface, may_add, quads);
+  SharpPoints points(mesh, may_add, quads);
   Index met = 0;
   for (const Index tip : tips) met += points.meet(tip) ? 1 : 0;
   points.store();

@@ -27,7 +27,7 @@ support::Case cone(Index x, Index y, double reach = 2, Index cells = kCells) {
 
 Index meet(const support::Case& c, bool may_add, QuadMesh& quads) {
   quads = c.quads;
-  return meet_sharp_points(c.mesh, SurfaceDistance(c.mesh.positions, c.mesh.faces), may_add, quads);
+  return meet_sharp_points(c.mesh, may_add, quads);
 }
 
 /// Vertices that are where the surface has its highest one.
