@@ -29,6 +29,8 @@ constexpr double kMostCross = 0.1;
 /// than there, and in all. Even few that cross are of no use to many programs.
 constexpr double kMoreOdd = 0.1;
 constexpr double kFewOdd = 0.15;
+/// The same where a part of the shape is lost otherwise: one place is not worth all quads.
+constexpr double kMoreOddForPart = 0.25;
 /// Share of a wanted count that a result may be off by.
 constexpr double kFarOff = 0.05;
 /// Share of a distance that is much less than it: of one that is seen, or of a result that has no
@@ -74,7 +76,8 @@ bool is_much_better(const ResultFaults& other, const ResultFaults& faults) {
   const bool is_enough = faults.distance > kSeen || other.odd <= faults.odd;
   const double share = is_enough ? kMuchLess : kVeryMuchLess;
   const bool is_nearer = other.distance < share * faults.distance;
-  const bool is_found = faults.largest > kShapeLost && other.largest < kMuchLess * faults.largest;
+  const bool is_found = faults.largest > kShapeLost && other.largest < kMuchLess * faults.largest &&
+                        other.odd <= faults.odd + kMoreOddForPart;
   const bool is_clean = faults.crossing > 0 && other.crossing == 0 &&
                         other.odd <= std::max(faults.odd + kMoreOdd, kFewOdd);
   const bool is_as_wanted = faults.missing > kFarOff && other.missing < kFarOff / 2;
