@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/artifact/artifact.h"
+#include "common/artifact/meshfile/material_files.h"
 #include "common/artifact/text_file.h"
 #include "common/core/error.h"
 #include "common/stage/repro.h"
@@ -82,6 +83,19 @@ Session::Keeper keeper(const fs::path& folder, const std::vector<const Stage*>& 
     save_value(path, *kept.output, &kept.mesh, kept.record.provenance);
     return content_digest(path);
   };
+}
+
+/// Writes the result, naming the files of its materials as they are seen from there.
+void save_result(const fs::path& output, const QuadMesh& quads, const fs::path& input,
+                 const Provenance& provenance) {
+  if (quads.mesh.attributes.material_files.empty()) {
+    save_value(output, quads, nullptr, provenance);
+    return;
+  }
+  QuadMesh moved = quads;
+  std::vector<std::string>& files = moved.mesh.attributes.material_files;
+  files = material_files_seen_from(files, input, output);
+  save_value(output, moved, nullptr, provenance);
 }
 
 void RemeshCommand::add_to(CLI::App& app) {
@@ -181,7 +195,7 @@ void RemeshCommand::make_output() {
   const std::string port = chain.run(session);
   const Report* measures = no_evaluate ? nullptr : &chain.measure(session, port);
   const QuadMesh& quads = session.get<QuadMesh>(port);
-  save_value(output, quads, nullptr, provenance());
+  save_result(output, quads, input, provenance());
   if (!shell.report_path.empty()) write_text(shell.report_path, records_json(session.records()));
   if (shell.verbose) {
     for (const StageRecord& record : session.records()) {

@@ -30,6 +30,9 @@ struct Attributes {
   std::vector<Colour> colour;         ///< [V]
   std::vector<TexturePoint> texture;  ///< [C] of each corner, in the order of the mesh's corners
   std::vector<FaceLabels> labels;     ///< of different names
+  /// Where the materials are that labels "usemtl" name: what each `mtllib` statement of an OBJ file
+  /// says, from the folder of that file. Only with such labels.
+  std::vector<std::string> material_files;
 
   [[nodiscard]] bool empty() const { return colour.empty() && texture.empty() && labels.empty(); }
   friend bool operator==(const Attributes&, const Attributes&) = default;

@@ -173,6 +173,7 @@ Attributes carry_attributes(const TriMesh& mesh, const PolyMesh& result,
                             const VertexProvenance& places) {
   Attributes attributes;
   const Attributes& from = mesh.attributes;
+  attributes.material_files = from.material_files;
   if (!from.colour.empty()) {
     for (Index v = 0; v < result.vertex_count(); ++v) {
       Colour& colour = attributes.colour.emplace_back(Colour{});

@@ -33,6 +33,7 @@ void carry_attributes(const PolyMesh& input, TriMesh& mesh) {
       if (mesh.source_vertex[v] == kNone) to.colour[v] = mean_colour_around(mesh, v);
     }
   }
+  to.material_files = from.material_files;
   for (const FaceLabels& labels : from.labels) {
     FaceLabels& carried = to.labels.emplace_back(FaceLabels{labels.name, {}, labels.names});
     carried.of_face.reserve(mesh.faces.size());

@@ -244,11 +244,15 @@ void flag_attribute_borders(TriMesh& mesh, const FeatureRules& rules, FeatureCou
   const MirrorLines mirrors(mesh);
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
     if (mesh.twin[h] == kNone || h > mesh.twin[h]) continue;
-    const bool is_border = rules.labels && is_label_border(mesh, h);
+    const bool is_between_labels = is_label_border(mesh, h);
+    const bool is_border = rules.labels && is_between_labels;
     const bool is_edge_of_texture = is_seam(mesh, h) || mirrors.contains(h);
-    if (!is_border && !(rules.seams && is_edge_of_texture)) continue;
-    ++(is_border ? counts.label_edges : counts.seam_edges);
-    set_feature(mesh, h, true);
+    if (is_border || (rules.seams && is_edge_of_texture)) {
+      ++(is_border ? counts.label_edges : counts.seam_edges);
+      set_feature(mesh, h, true);
+    } else if (is_between_labels && mesh.is_feature[h] == 0) {
+      ++counts.open_label_edges;
+    }
   }
 }
 

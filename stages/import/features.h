@@ -20,13 +20,14 @@ struct FeatureRules {
 };
 
 struct FeatureCounts {
-  Index strong_edges = 0;    ///< bent by more than the angle
-  Index shallow_edges = 0;   ///< bent by more than half the angle, standing alone
-  Index bridging_edges = 0;  ///< bent less, added between strong ones
-  Index dropped_edges = 0;   ///< of what was noise
-  Index ridge_edges = 0;     ///< bent less than creases, but standing out by more than the height
-  Index facet_edges = 0;     ///< of flat polygons, as `find_facet_edges` states
-  Index label_edges = 0;     ///< between faces of different labels
+  Index strong_edges = 0;      ///< bent by more than the angle
+  Index shallow_edges = 0;     ///< bent by more than half the angle, standing alone
+  Index bridging_edges = 0;    ///< bent less, added between strong ones
+  Index dropped_edges = 0;     ///< of what was noise
+  Index ridge_edges = 0;       ///< bent less than creases, but standing out by more than the height
+  Index facet_edges = 0;       ///< of flat polygons, as `find_facet_edges` states
+  Index label_edges = 0;       ///< between faces of different labels
+  Index open_label_edges = 0;  ///< likewise, but no features, as the rules do not want them
   Index seam_edges = 0;  ///< where the sides differ in texture coordinates, or these turn back, and
                          ///< not in labels
   Index listed_edges = 0;  ///< of a list, the boundary excluded

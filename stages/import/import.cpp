@@ -152,6 +152,7 @@ void report_features(const import::FeatureCounts& counts, Report& report) {
   report.set("features.ridge_edges", counts.ridge_edges);
   report.set("features.facet_edges", counts.facet_edges);
   report.set("features.label_edges", counts.label_edges);
+  report.set("features.open_label_edges", counts.open_label_edges);
   report.set("features.seam_edges", counts.seam_edges);
   report.set("features.listed_edges", counts.listed_edges);
   report.set("features.edges", counts.edges);
@@ -237,6 +238,16 @@ void warn_of_many_seams(const TriMesh& mesh, const import::FeatureCounts& counts
                   100 * share));
 }
 
+/// A border that no line follows comes out along the cells, as a staircase.
+void warn_of_open_labels(const import::FeatureCounts& counts, Report& report) {
+  if (counts.open_label_edges == 0) return;
+  report.warn(
+      fmt::format("{} edges between faces of different labels (groups, materials) are no features, "
+                  "so these borders will be as ragged as cells are large; --attribute-features all "
+                  "keeps them as lines",
+                  counts.open_label_edges));
+}
+
 void report_attributes(const Attributes& attributes, Report& report) {
   report.set("attributes.colours", !attributes.colour.empty());
   report.set("attributes.texture_coordinates", !attributes.texture.empty());
@@ -295,6 +306,7 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
       result.mesh, feature_rules(options, result.mesh.diagonal), soup, listed);
   if (options.no_attributes) result.mesh.attributes = {};
   warn_of_many_seams(result.mesh, features, result.report);
+  if (!options.no_attributes) warn_of_open_labels(features, result.report);
   report_noise(result.mesh, result.report);
   divide_long_edges(result.mesh, options, result.report);
   build_wedges(result.mesh);

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <numbers>
 #include <set>
@@ -74,6 +75,23 @@ TEST_F(AttributeFiles, TextureCoordinatesOfATube) {
   // Boundary and seam are kept, so the faces cover the rectangle from (0, 0) to (1, 2) once. Fitted
   // vertices lie beside the tube's edges by rounding, where each face looks on its own side.
   EXPECT_NEAR(covered, 2, 1e-7);
+}
+
+TEST_F(AttributeFiles, MaterialsAreFoundFromTheResult) {
+  PolyMesh cube = support::labelled_cube(6);
+  cube.attributes.labels[0].name = "usemtl";
+  cube.attributes.material_files = {"paints.mtl"};
+  write_mesh(file("cube.obj"), cube);
+  std::filesystem::create_directories(file("deep/er"));
+  const std::string flags = " --vertices 150 -q --no-evaluate";
+  must("strake remesh cube.obj -o beside.obj --keep kept" + flags);
+  must("strake remesh cube.obj -o deep/er/out.obj" + flags);
+  const auto files = [&](const char* name) { return read(name).attributes.material_files; };
+  EXPECT_EQ(files("beside.obj"), std::vector<std::string>{"paints.mtl"});
+  EXPECT_EQ(files("deep/er/out.obj"), std::vector<std::string>{"../../paints.mtl"});
+  EXPECT_EQ(read("beside.obj").attributes.labels[0].name, "usemtl");
+  must("strake-export kept/fitted.hdf -o again.obj -q");
+  EXPECT_EQ(bytes("again.obj"), bytes("beside.obj"));
 }
 
 /// A flat sheet of n x n unit cells; vertex j (n + 1) + i is at (i, j).

@@ -121,6 +121,7 @@ void print_part(std::string_view statement, const FaceLabels& labels, Index face
 
 void write_obj(const PolyMesh& mesh, OutputFile& out) {
   const Attributes& attributes = mesh.attributes;
+  for (const std::string& files : attributes.material_files) out.print("mtllib {}\n", files);
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     const Vec3& p = mesh.positions[v];
     out.print("v {} {} {}", p.x(), p.y(), p.z());

@@ -69,6 +69,14 @@ class ObjReader {
     return false;
   }
 
+  /// "mtllib file..."
+  void add_material_files(TextScanner& scanner) {
+    std::string files = rest_of_line(scanner);
+    if (!files.empty() && std::ranges::find(material_files_, files) == material_files_.end()) {
+      material_files_.push_back(std::move(files));
+    }
+  }
+
   PolyMesh finish() {
     check_countable(mesh_.positions.size(), "vertices");
     if (mesh_.positions.empty()) throw InputError("holds no vertices; it does not look like OBJ");
@@ -81,6 +89,7 @@ class ObjReader {
         attributes().texture.push_back(is_there ? texture_points_[t] : TexturePoint{});
       }
     }
+    if (layers_.back().is_used) attributes().material_files = std::move(material_files_);
     for (Layer& layer : layers_) {
       if (layer.is_used) attributes().labels.push_back(std::move(layer.labels));
     }
@@ -159,6 +168,7 @@ class ObjReader {
   std::vector<Index> corner_texture_;  ///< [C], or empty while no corner names one
   std::array<Layer, 3> layers_ = {Layer{{"o", {}, {}}}, Layer{{"g", {}, {}}},
                                   Layer{{"usemtl", {}, {}}}};
+  std::vector<std::string> material_files_;
 };
 
 bool is_other_keyword(std::string_view word) {
@@ -210,6 +220,8 @@ PolyMesh read_obj(std::string_view bytes, ReadReport& report) {
       reader.add_face(scanner);
     } else if (word == "vt") {
       reader.add_texture_point(scanner);
+    } else if (word == "mtllib") {
+      reader.add_material_files(scanner);
     } else if (!reader.start_part(word, scanner) && !is_statement(word)) {
       ++report.skipped_lines;
     }

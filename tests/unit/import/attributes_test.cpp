@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
+#include "common/artifact/meshfile/material_files.h"
 #include "common/artifact/meshfile/mesh_reader.h"
 #include "common/artifact/meshfile/mesh_writer.h"
 #include "common/geometry/samples/samples.h"
@@ -26,6 +28,7 @@ PolyMesh parsed(const std::string& text, const std::string& extension) {
 
 TEST(Attributes, OfAnObjFile) {
   const PolyMesh mesh = parsed(
+      "mtllib my parts.mtl\nmtllib b.mtl c.mtl\nmtllib my parts.mtl\n"
       "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 1\nv 0 1 0\n"
       "vt 0 0\nvt 1 0\nvt 1 1\nvt 0.5 0.25\n"
       "g first\nusemtl red paint\nf 1/1 2/2/9 3/-2\ng second\nf 1//4 3/3 4/4\n",
@@ -37,7 +40,28 @@ TEST(Attributes, OfAnObjFile) {
   const std::vector<FaceLabels> labels = {{"g", {0, 1}, {"first", "second"}},
                                           {"usemtl", {0, 0}, {"red paint"}}};
   EXPECT_EQ(mesh.attributes.labels, labels);
+  const std::vector<std::string> files = {"my parts.mtl", "b.mtl c.mtl"};
+  EXPECT_EQ(mesh.attributes.material_files, files);
+  // No face has a material of theirs.
+  EXPECT_EQ(parsed("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n", ".obj").attributes,
+            Attributes{});
   EXPECT_TRUE(parsed("v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nf 1 2 3\n", ".obj").attributes.empty());
+}
+
+TEST(Attributes, MaterialFilesAreNamedFromWhereAResultIs) {
+  const fs::path folder = fs::path(testing::TempDir()) / "strake_materials";
+  fs::create_directories(folder / "in");
+  std::ofstream(folder / "in" / "my parts.mtl") << "newmtl a\n";
+  const auto seen = [&](const std::vector<std::string>& files, const char* to) {
+    return material_files_seen_from(files, folder / "in" / "a.obj", folder / to / "b.obj");
+  };
+  using Files = std::vector<std::string>;
+  EXPECT_EQ(seen({"my parts.mtl", "b.mtl c.mtl"}, "in/../in"),
+            Files({"my parts.mtl", "b.mtl c.mtl"}));
+  EXPECT_EQ(seen({"my parts.mtl", "b.mtl sub/c.mtl"}, "out/deep"),
+            Files({"../../in/my parts.mtl", "../../in/b.mtl", "../../in/sub/c.mtl"}));
+  EXPECT_EQ(seen({"/elsewhere/d.mtl"}, "out"), Files({"/elsewhere/d.mtl"}));
+  fs::remove_all(folder);
 }
 
 TEST(Attributes, ColoursALittleAboveOneAreShares) {
@@ -89,7 +113,9 @@ PolyMesh decorated() {
   support::colour_linearly(mesh);
   FaceLabels labels{"g", {}, {"lower", "upper"}};
   for (Index f = 0; f < mesh.face_count(); ++f) labels.of_face.push_back(f < 8 ? 0 : 1);
-  mesh.attributes.labels = {labels};
+  FaceLabels materials{"usemtl", labels.of_face, {"red", "green"}};
+  mesh.attributes.labels = {labels, materials};
+  mesh.attributes.material_files = {"paints.mtl"};
   return mesh;
 }
 
@@ -139,6 +165,7 @@ void expect_carried(const PolyMesh& input, const TriMesh& mesh) {
     }
     EXPECT_EQ(mesh.attributes.labels[0].of_face[h / 3], input.attributes.labels[0].of_face[f]);
   }
+  EXPECT_EQ(mesh.attributes.material_files, input.attributes.material_files);
 }
 
 TEST(Attributes, EveryKindOfLabelsIsAStatementOfItsOwn) {
@@ -171,6 +198,7 @@ TEST(Attributes, SurviveWeldingAndTurning) {
   const PolyMesh mesh = decorated();
   PolyMesh soup;
   soup.attributes.labels = mesh.attributes.labels;
+  soup.attributes.material_files = mesh.attributes.material_files;
   for (Index f = 0; f < mesh.face_count(); ++f) {
     std::vector<Index> face;
     for (int i = 0; i < 4; ++i) {
@@ -204,6 +232,23 @@ TEST(Attributes, BordersAreFeatures) {
   ImportOptions without;
   without.no_attributes = true;
   EXPECT_TRUE(shapes::imported(mesh, without).mesh.attributes.empty());
+}
+
+TEST(Attributes, BordersOfLabelsThatAreNotKeptAreSaid) {
+  const auto warnings = [](const PolyMesh& mesh, const char* which) {
+    ImportOptions options = shapes::undivided();
+    options.attribute_features = which;
+    const ImportResult result = shapes::imported(mesh, options);
+    return std::ranges::count_if(result.report.warnings(), [](const std::string& warning) {
+      return warning.find("--attribute-features all") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(warnings(decorated(), "seams"), 1);
+  EXPECT_EQ(warnings(decorated(), "all"), 0);
+  // All its edges are creases.
+  PolyMesh cube = shapes::cube();
+  cube.attributes.labels = {{"g", {0, 1, 2, 3, 4, 5}, {}}};
+  EXPECT_EQ(warnings(cube, "seams"), 0);
 }
 
 /// Texture coordinates from the place of each corner.
