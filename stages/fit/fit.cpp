@@ -74,7 +74,7 @@ class Fit {
       : quads_(quads),
         field_(field),
         surface_(mesh.positions, mesh.faces),
-        places_(mesh, surface_, quads),
+        places_(mesh, surface_, quads, field),
         deviation_(mesh, surface_, places_.face_normals(), places_.wedge_normals(),
                    triangle_count(quads.mesh)),
         lines_(quads.mesh),

@@ -18,11 +18,13 @@ constexpr double kLeastAgreement = 0.5;
 }  // namespace
 
 VertexPlaces::VertexPlaces(const TriMesh& mesh, const SurfaceDistance& surface,
-                           const QuadMesh& quads)
+                           const QuadMesh& quads, const PrincipalField* field)
     : mesh_(mesh),
       surface_(surface),
       face_normals_(mesh),
-      wedge_normals_(strake::wedge_normals(mesh, face_normals_)),
+      own_normals_(field == nullptr ? strake::wedge_normals(mesh, face_normals_)
+                                    : std::vector<Vec3>()),
+      wedge_normals_(field == nullptr ? own_normals_ : field->normal),
       positions_(quads.mesh.positions),
       normals_(positions_.size()),
       lines_(positions_.size()),

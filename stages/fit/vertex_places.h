@@ -20,7 +20,11 @@ namespace strake::fitting {
 class VertexPlaces {
  public:
   /// \param mesh, surface  the input and its faces, in the same order
-  VertexPlaces(const TriMesh& mesh, const SurfaceDistance& surface, const QuadMesh& quads);
+  /// \param field          its normals are taken, to save time and memory; nullptr: those of `mesh`
+  VertexPlaces(const TriMesh& mesh, const SurfaceDistance& surface, const QuadMesh& quads,
+               const PrincipalField* field = nullptr);
+  VertexPlaces(const VertexPlaces&) = delete;
+  VertexPlaces& operator=(const VertexPlaces&) = delete;
 
   /// [V] relative to the mesh's origin.
   [[nodiscard]] const std::vector<Vec3>& positions() const { return positions_; }
@@ -76,7 +80,8 @@ class VertexPlaces {
   const TriMesh& mesh_;
   const SurfaceDistance& surface_;
   FaceNormals face_normals_;                 ///< of the input
-  std::vector<Vec3> wedge_normals_;          ///< of the input
+  std::vector<Vec3> own_normals_;            ///< [W] empty where the field has them
+  const std::vector<Vec3>& wedge_normals_;   ///< of the input
   std::vector<Vec3> positions_;              ///< [V] of the result
   std::vector<Vec3> normals_;                ///< [V] at the feet
   std::vector<LinePlace> lines_;             ///< [V]

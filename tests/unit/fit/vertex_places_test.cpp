@@ -59,5 +59,17 @@ TEST(VertexPlaces, GoAroundAtMostOnce) {
   EXPECT_EQ(others.positions()[0], c.triangle.positions[1]);
 }
 
+/// The field of a coarser mesh has the normals of the surface that the mesh stands for.
+TEST(VertexPlaces, HaveTheNormalsOfTheField) {
+  const OnTheBoundary c(1);
+  const SurfaceDistance surface(c.mesh.positions, c.mesh.faces);
+  PrincipalField field;
+  field.normal = {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
+  const fitting::VertexPlaces places(c.mesh, surface, c.quads, &field);
+  EXPECT_LT((places.normal(0) - Vec3(0.6, 0.4, 0).normalized()).norm(), 1e-15);
+  EXPECT_LT((fitting::VertexPlaces(c.mesh, surface, c.quads).normal(0) - Vec3(0, 0, 1)).norm(),
+            1e-15);
+}
+
 }  // namespace
 }  // namespace strake
