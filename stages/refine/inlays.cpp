@@ -1,8 +1,6 @@
 #include "stages/refine/inlays.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
 #include <iterator>
 #include <limits>
 #include <numeric>
@@ -11,8 +9,8 @@
 #include <utility>
 
 #include "common/geometry/cell_error/compared_surfaces.h"
-#include "common/geometry/patch_fill/drop_unused_vertices.h"
 #include "stages/refine/cells_beyond.h"
+#include "stages/refine/inlaid.h"
 #include "stages/refine/inlay.h"
 #include "stages/refine/thinning.h"
 
@@ -34,29 +32,12 @@ constexpr std::size_t kFewCells = 250;
 /// Share of all cells that a component may have whose place an inlay takes altogether. Larger ones
 /// should follow lines.
 constexpr double kMostWhole = 0.1;
-/// Faces of an inlay that are not worth it, for faces that cross: for each cell that goes, or as a
-/// share of all cells, whatever is more.
-constexpr std::size_t kMostFacesPerCell = 4;
-constexpr double kMostFacesShare = 0.02;
-/// Share of vertices that inlays for faces that cross may add without being thinned out more. What
-/// a count allows is a little more.
-constexpr double kMostAdded = 0.03;
-/// Places of the input whose vertex is searched for over the surface. More are left bare by an
-/// inlay that is wrong altogether; each search would go all over what is bare.
-constexpr std::size_t kMostSearched = 1000;
 /// Cells in all of places where no inlay could be cut, after which none grows for that any more.
 constexpr std::size_t kMostInVain = 40000;
 /// Times that inlays grow, for faces that cross, without fewer faults than ever before.
 constexpr int kRoundsInVain = 4;
 /// Where more cells are bad, it is not for single places.
 constexpr std::size_t kMostBad = 3000;
-/// Times that inlays are thinned out by the next distance, not by none, where they have faults.
-constexpr int kMostThinnings = 12;
-/// Times that inlays are thinned out less in vain: no fewer faces cross others.
-constexpr int kThinningsInVain = 3;
-/// Largest growth of the ball around a fault in which inlays are thinned out less.
-constexpr double kLargestScale = 1024;
-const Ball kEverywhere = {Vec3::Zero(), std::numeric_limits<double>::infinity()};
 
 /// Where an inlay is to be.
 struct Site {
@@ -68,31 +49,16 @@ struct Site {
   std::size_t cut_for = 0;  ///< how many cells there were when it was cut
 };
 
-/// A result with inlays.
-struct Inlaid {
-  QuadMesh quads;
-  std::vector<Index> site;  ///< [F] in whose inlay a face is; kNone: in none
-  std::vector<Index> part;  ///< [F] its number there, or of the result without inlays
-};
-
-/// What is not as it should be.
-struct Faults {
-  std::vector<Index> faces;  ///< ascending
-  bool is_beyond = false;    ///< whether anything is: a place of the input may be near no face
-  [[nodiscard]] bool any() const { return is_beyond || !faces.empty(); }
-};
-
+/// Inlays that grow until a result is as it should be with them.
 class Inlays {
  public:
-  /// \param proof, quads, crossing  kept by reference
-  Inlays(ToleranceProof& proof, const QuadMesh& quads, CrossingPlaces& crossing, const Goal& goal)
-      : proof_(proof),
-        base_(quads),
-        crossing_(crossing),
+  /// \param host  kept by reference
+  Inlays(const InlayHost& host, const Goal& goal)
+      : host_(host),
+        base_(host.quads()),
         goal_(goal),
-        surfaces_(proof.input(), base_),
-        lines_(surfaces_.mesh()),
-        cutter_(surfaces_, base_, static_cast<std::size_t>(kMostWhole * base_.mesh.face_count())),
+        cutter_(host.surfaces(), base_,
+                static_cast<std::size_t>(kMostWhole * base_.mesh.face_count())),
         is_given_up_(static_cast<std::size_t>(base_.mesh.face_count()), 0) {}
 
   /// Makes inlays over cells, and lets them grow; where that ends in vain those are back with which
@@ -102,14 +68,14 @@ class Inlays {
     Inlaid now{base_, {}, {}};
     now.part.resize(static_cast<std::size_t>(base_.mesh.face_count()));
     std::iota(now.part.begin(), now.part.end(), 0);
-    now.site.assign(now.part.size(), kNone);
+    now.inlay.assign(now.part.size(), kNone);
     Faults bad{cells, true};
     std::size_t fewest = std::numeric_limits<std::size_t>::max();
     std::vector<Site> best;
     int in_vain = 0;
     for (int round = 0; round < goal_.rounds && bad.any() && in_vain < kRoundsInVain; ++round) {
       if (!widen(now, bad.faces) || !cut() || sites_.empty()) break;
-      now = with_inlays();
+      now = inlaid();
       bad = faults(now);
       if (!goal_.uncrosses) continue;
       in_vain = bad.faces.size() < fewest ? 0 : in_vain + 1;
@@ -126,20 +92,21 @@ class Inlays {
   void drop_bad_unless_fewer_cross(std::size_t before) {
     const std::vector<Site> all = sites_;
     drop_bad();
-    const auto crossing = [&] { return crossing_.faces_of(with_inlays().quads.mesh).size(); };
+    const auto crossing = [&] { return host_.crossing(inlaid()).size(); };
     const std::size_t without_bad = crossing();
     std::vector<Site> good = std::exchange(sites_, all);
-    const bool is_within = !beyond(with_inlays()).any();
+    const bool is_within = !host_.beyond(inlaid()).any();
     if (!is_within || crossing() >= std::min(without_bad, before)) sites_ = std::move(good);
   }
 
   /// Gives up the inlays that have faults.
   void drop_bad() {
     for (;;) {
-      const Inlaid now = with_inlays();
+      const std::vector<Inlay> all = inlays();
+      const Inlaid now = host_.with(all);
       std::set<std::size_t> bad;
       for (const Index f : faults(now).faces) {
-        for (const std::size_t s : sites_at(now, f)) bad.insert(s);
+        for (const std::size_t s : host_.inlays_at(all, now, f)) bad.insert(s);
       }
       if (bad.empty()) return;
       std::vector<Site> good;
@@ -150,119 +117,23 @@ class Inlays {
     }
   }
 
-  /// Thins inlays out by the least of some distances after which no faces cross and there are not
-  /// many more vertices than without any; else by that after which the fewest cross, or of which
-  /// the fewest vertices come. \pre as for `thin`
-  /// \param distance  the first one; then twice as much, up to the tolerance
-  void thin_from(double distance) {
-    const std::vector<Site> whole = sites_;
-    const auto most =
-        static_cast<Index>((1 + kMostAdded) * static_cast<double>(base_.mesh.vertex_count()));
-    using Price = std::pair<Index, std::size_t>;  // vertices too many, faces that cross
-    Price least{std::numeric_limits<Index>::max(), 0};
-    std::vector<Site> best;
-    for (;;) {
-      thin(distance);
-      drop_large();
-      const QuadMesh thinned = with_inlays().quads;
-      const Price price{std::max(0, thinned.mesh.vertex_count() - most),
-                        crossing_.faces_of(thinned.mesh).size()};
-      if (price < least) {
-        least = price;
-        best = sites_;
-      }
-      if (price == Price{} || distance >= proof_.tolerance()) break;
-      distance = std::min(2 * distance, proof_.tolerance());
-      sites_ = whole;
-    }
-    sites_ = std::move(best);
-  }
-
-  /// Takes vertices out of inlays, fewer around faces that are beyond the tolerance or cross others
-  /// then; of what is within it, that is taken of which the fewest cross. \pre none is beyond it
-  /// \param distance  by which to thin out, at most the tolerance
-  void thin(double distance) {
-    std::vector<Thinning> thinnings;
-    for (const Site& site : sites_) thinnings.emplace_back(surfaces_, lines_, site.inlay);
-    std::vector<std::size_t> changed(sites_.size());
-    std::iota(changed.begin(), changed.end(), 0);
-    std::size_t fewest = std::numeric_limits<std::size_t>::max();
-    std::vector<Site> best = sites_;
-    int in_vain = 0;
-    for (int time = 0; !changed.empty() && in_vain < kThinningsInVain; ++time) {
-      for (const std::size_t s : changed) {
-        sites_[s].inlay.faces = thinnings[s].faces(distance);
-      }
-      const Inlaid now = with_inlays();
-      const Faults bad = beyond(now);
-      std::vector<Index> crossing = crossing_.faces_of(now.quads.mesh);
-      std::erase_if(crossing, [&](Index f) { return now.site[f] == kNone; });
-      if (!bad.any() && crossing.size() < fewest) {
-        fewest = crossing.size();
-        best = sites_;
-        in_vain = 0;
-      } else if (!bad.any()) {
-        ++in_vain;
-      }
-      const std::size_t levels = time < kMostThinnings ? 1 : Thinning::kLevels;
-      changed =
-          lessen(thinnings, balls_around(now, bad.faces), balls_around(now, crossing), levels);
-      if (!changed.empty() || !bad.any()) continue;
-      for (std::size_t s = 0; s < sites_.size(); ++s) {  // it is not known where
-        if (thinnings[s].lessen({kEverywhere}, 1, levels)) changed.push_back(s);
-      }
-    }
-    sites_ = std::move(best);
-  }
-
-  /// The result with the inlays there are.
-  [[nodiscard]] Inlaid result() const { return with_inlays(); }
-
- private:
-  /// What inlays grow for: faces beyond the tolerance, and those that cross if that is the goal.
-  Faults faults(const Inlaid& inlaid) {
-    Faults result = beyond(inlaid);
-    if (!goal_.uncrosses) return result;
-    const std::vector<Index> crossing = crossing_.faces_of(inlaid.quads.mesh);
-    std::vector<Index> all;
-    std::ranges::set_union(result.faces, crossing, std::back_inserter(all));
-    return {std::move(all), result.is_beyond};
-  }
-
-  Faults beyond(const Inlaid& inlaid) {
-    const auto excess = proof_.check(ComparedSurfaces(proof_.input(), inlaid.quads));
-    std::set<Index> faces;
-    const bool on_surface = excess.size() <= kMostSearched;
-    for (const Target& t : cells_beyond(proof_.input()->mesh, inlaid.quads, excess, on_surface)) {
-      faces.insert(t.face);
-    }
-    return {{faces.begin(), faces.end()}, !excess.empty()};
-  }
-
-  /// Sites in whose inlay a face is, or that it is beside.
-  [[nodiscard]] std::vector<std::size_t> sites_at(const Inlaid& inlaid, Index face) const {
-    if (inlaid.site[face] != kNone) return {static_cast<std::size_t>(inlaid.site[face])};
-    std::vector<std::size_t> result;
-    for (std::size_t s = 0; s < sites_.size(); ++s) {
-      if (is_beside(inlaid.part[face], sites_[s])) result.push_back(s);
-    }
+  [[nodiscard]] std::vector<Inlay> inlays() const {
+    std::vector<Inlay> result;
+    for (const Site& site : sites_) result.push_back(site.inlay);
     return result;
   }
 
-  /// Whether a cell has a vertex on the outline of an inlay.
-  [[nodiscard]] bool is_beside(Index cell, const Site& site) const {
-    const auto is_of_outline = [&](Index v) {
-      return std::ranges::find(site.inlay.outline, v) != site.inlay.outline.end();
-    };
-    return std::ranges::any_of(base_.mesh.face(cell), is_of_outline);
-  }
+ private:
+  [[nodiscard]] Inlaid inlaid() const { return host_.with(inlays()); }
 
-  /// Gives up the inlays that have many faces for what they take the place of.
-  void drop_large() {
-    const auto few = static_cast<std::size_t>(kMostFacesShare * base_.mesh.face_count());
-    std::erase_if(sites_, [&](const Site& site) {
-      return site.inlay.faces.size() > std::max(few, kMostFacesPerCell * site.inlay.cells.size());
-    });
+  /// What inlays grow for: faces beyond the tolerance, and those that cross if that is the goal.
+  Faults faults(const Inlaid& inlaid) {
+    Faults result = host_.beyond(inlaid);
+    if (!goal_.uncrosses) return result;
+    const std::vector<Index> crossing = host_.crossing(inlaid);
+    std::vector<Index> all;
+    std::ranges::set_union(result.faces, crossing, std::back_inserter(all));
+    return {std::move(all), result.is_beyond};
   }
 
   void widen(Site& site) const {
@@ -277,15 +148,15 @@ class Inlays {
     std::vector<std::set<Index>> grown(sites_.size());
     std::vector<Index> cells;
     for (const Index f : faces) {
-      if (inlaid.site[f] == kNone) {
+      if (inlaid.inlay[f] == kNone) {
         if (is_given_up_[inlaid.part[f]] == 0) cells.push_back(inlaid.part[f]);
         continue;
       }
-      const Inlay& inlay = sites_[inlaid.site[f]].inlay;
-      is_bad[inlaid.site[f]] = 1;
+      const Inlay& inlay = sites_[inlaid.inlay[f]].inlay;
+      is_bad[inlaid.inlay[f]] = 1;
       for (const Index v : inlay.faces[inlaid.part[f]]) {
         if (static_cast<std::size_t>(v) >= inlay.outline.size()) continue;
-        cutter_.add_around(inlay.outline[v], grown[inlaid.site[f]]);
+        cutter_.add_around(inlay.outline[v], grown[inlaid.inlay[f]]);
       }
     }
     bool may_grow = false;
@@ -384,94 +255,9 @@ class Inlays {
     return any;
   }
 
-  /// Thins inlays out less around faces beyond the tolerance, in as large balls as it takes, and
-  /// around faces that cross others, which they may have done before.
-  /// \param beyond, crossing  [sites]
-  /// \param levels            changes to smaller distances
-  /// \return the inlays for which that changes anything
-  static std::vector<std::size_t> lessen(std::vector<Thinning>& thinnings,
-                                         const std::vector<std::vector<Ball>>& beyond,
-                                         const std::vector<std::vector<Ball>>& crossing,
-                                         std::size_t levels) {
-    std::vector<std::size_t> changed;
-    for (std::size_t s = 0; s < thinnings.size(); ++s) {
-      bool is_less = thinnings[s].lessen(crossing[s], 1, levels);
-      for (double scale = 1; !is_less && scale <= kLargestScale; scale *= 2) {
-        is_less = thinnings[s].lessen(beyond[s], scale, levels);
-      }
-      if (is_less) changed.push_back(s);
-    }
-    return changed;
-  }
-
-  /// [sites] around faces of their inlays, and beside these.
-  [[nodiscard]] std::vector<std::vector<Ball>> balls_around(const Inlaid& inlaid,
-                                                            const std::vector<Index>& faces) const {
-    std::vector<std::vector<Ball>> result(sites_.size());
-    for (const Index f : faces) {
-      const Ball ball = ball_around(inlaid, f);
-      for (const std::size_t s : sites_at(inlaid, f)) result[s].push_back(ball);
-    }
-    return result;
-  }
-
-  /// Around a face, through its farthest corner.
-  [[nodiscard]] Ball ball_around(const Inlaid& inlaid, Index face) const {
-    const PolyMesh& mesh = inlaid.quads.mesh;
-    Ball ball{Vec3::Zero(), 0};
-    for (const Index v : mesh.face(face)) ball.middle += mesh.positions[v];
-    ball.middle /= static_cast<double>(mesh.face(face).size());
-    for (const Index v : mesh.face(face)) {
-      ball.radius = std::max(ball.radius, (mesh.positions[v] - ball.middle).norm());
-    }
-    ball.middle -= surfaces_.mesh().origin;
-    return ball;
-  }
-
-  [[nodiscard]] Inlaid with_inlays() const {
-    Inlaid result;
-    result.quads.mesh_id = base_.mesh_id;
-    QuadMesh& quads = result.quads;
-    quads.mesh.positions = base_.mesh.positions;
-    quads.provenance = base_.provenance;
-    std::vector<char> goes(static_cast<std::size_t>(base_.mesh.face_count()), 0);
-    for (const Site& site : sites_) {
-      for (const Index f : site.inlay.cells) goes[f] = 1;
-    }
-    const auto add_face = [&](std::span<const Index> face, Index site, Index part) {
-      quads.mesh.add_face(face);
-      result.site.push_back(site);
-      result.part.push_back(part);
-    };
-    for (Index f = 0; f < base_.mesh.face_count(); ++f) {
-      if (goes[f] == 0) add_face(base_.mesh.face(f), kNone, f);
-    }
-    for (std::size_t s = 0; s < sites_.size(); ++s) {
-      const Inlay& inlay = sites_[s].inlay;
-      std::vector<Index> number = inlay.outline;
-      for (const SurfacePoint& point : inlay.points) {
-        number.push_back(quads.mesh.vertex_count());
-        quads.mesh.positions.push_back(place_of(surfaces_.mesh(), point) + surfaces_.mesh().origin);
-        quads.provenance.face.push_back(point.face);
-        quads.provenance.barycentric.push_back(point.barycentric);
-        quads.provenance.lines.push_back({kNone, kNone});
-      }
-      for (std::size_t i = 0; i < inlay.faces.size(); ++i) {
-        const auto& [a, b, c] = inlay.faces[i];
-        add_face(std::array{number[a], number[b], number[c]}, static_cast<Index>(s),
-                 static_cast<Index>(i));
-      }
-    }
-    drop_unused_vertices(quads);
-    return result;
-  }
-
-  ToleranceProof& proof_;
+  const InlayHost& host_;
   const QuadMesh& base_;
-  CrossingPlaces& crossing_;
   Goal goal_;
-  ComparedSurfaces surfaces_;
-  SurfaceLines lines_;
   InlayCutter cutter_;
   std::vector<Site> sites_;
   std::size_t cells_in_vain_ = 0;
@@ -487,29 +273,31 @@ bool inlay_beyond(ToleranceProof& proof, const std::vector<Excess>& excess,
     cells.push_back(target.face);
   }
   if (cells.size() > kMostBad) return false;
-  Inlays inlays(proof, quads, crossing, kWithin);
-  const bool is_within = inlays.grow(cells);
-  if (is_within) {
-    inlays.thin(proof.tolerance());
-    quads = inlays.result().quads;
-  }
-  return is_within;
+  const InlayHost host(proof, quads, crossing);
+  Inlays growing(host, kWithin);
+  if (!growing.grow(cells)) return false;
+  std::vector<Inlay> inlays = growing.inlays();
+  thin(host, proof.tolerance(), inlays);
+  quads = host.with(inlays).quads;
+  return true;
 }
 
 std::vector<char> inlay_crossing(ToleranceProof& proof, CrossingPlaces& crossing, double thinned_by,
                                  QuadMesh& quads) {
   const std::vector<Index> cells = crossing.faces_of(quads.mesh);
   if (cells.empty() || cells.size() > kMostBad) return {};
-  Inlays inlays(proof, quads, crossing, kUncrossed);
-  if (!inlays.grow(cells)) inlays.drop_bad_unless_fewer_cross(cells.size());
-  inlays.thin_from(thinned_by);
-  Inlaid result = inlays.result();
+  const InlayHost host(proof, quads, crossing);
+  Inlays growing(host, kUncrossed);
+  if (!growing.grow(cells)) growing.drop_bad_unless_fewer_cross(cells.size());
+  std::vector<Inlay> inlays = growing.inlays();
+  thin_from(host, thinned_by, inlays);
+  Inlaid result = host.with(inlays);
   if (!proof.check(ComparedSurfaces(proof.input(), result.quads)).empty()) return {};
   if (crossing.faces_of(result.quads.mesh).size() >= cells.size()) return {};
   quads = std::move(result.quads);
   std::vector<char> is_of_inlay(quads.mesh.positions.size(), 0);
   for (Index f = 0; f < quads.mesh.face_count(); ++f) {
-    if (result.site[f] == kNone) continue;
+    if (result.inlay[f] == kNone) continue;
     for (const Index v : quads.mesh.face(f)) is_of_inlay[v] = 1;
   }
   return is_of_inlay;

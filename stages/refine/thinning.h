@@ -7,6 +7,7 @@
 #include "common/core/types.h"
 #include "common/geometry/cell_error/compared_surfaces.h"
 #include "common/geometry/surface_lines.h"
+#include "stages/refine/inlaid.h"
 #include "stages/refine/inlay.h"
 
 namespace strake {
@@ -43,5 +44,16 @@ class Thinning {
   std::vector<std::array<Index, 3>> faces_;  ///< of the inlay
   std::vector<std::size_t> level_;  ///< [V] from the largest distance, 0, to `kLevels`: none
 };
+
+/// Takes vertices out of inlays, fewer around faces that are beyond the tolerance or cross others
+/// then; of what is within it, that is taken of which the fewest cross. \pre none is beyond it
+/// \param distance  by which to thin out, at most the tolerance
+void thin(const InlayHost& host, double distance, std::vector<Inlay>& inlays);
+
+/// Thins inlays out by the least of some distances after which no faces cross and there are not
+/// many more vertices than without any; else by that after which the fewest cross, or of which
+/// the fewest vertices come. \pre as for `thin`
+/// \param distance  the first one; then twice as much, up to the tolerance
+void thin_from(const InlayHost& host, double distance, std::vector<Inlay>& inlays);
 
 }  // namespace strake
