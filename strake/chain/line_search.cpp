@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -30,6 +31,8 @@ constexpr int kMostDensityRounds = 5;
 /// times it is.
 constexpr double kDensityMissed = 0.1;
 constexpr int kMostDensitySearches = 3;
+/// Share of that way from which on nobody needs to be told.
+constexpr double kDensityMet = 0.67;
 /// Share of a count up to which strips of quads make up for what lines give too little or too much:
 /// in the first trials, later, and where no scale of distances comes nearer. Lines at the right
 /// distances are better, where they come at once.
@@ -99,6 +102,16 @@ void search_with_density(Session& session, const GoalStages& stages, const Densi
     if (std::abs(best.offer(session) - 1) <= kDensityMissed) break;
   }
   best.take(session);
+}
+
+void warn_of_density(Session& session, const DensityMatch& match) {
+  const double reached = match.reached(session.get<QuadMesh>("quads"));
+  if (reached >= kDensityMet) return;
+  session.say(fmt::format(
+      "warning: the density is followed for {:.0f} % of the way only: cells cannot differ as much "
+      "as it does from place to place, or are no smaller than the vertices wanted allow; let it "
+      "change over a longer way, or ask for more vertices",
+      100 * std::max(0.0, reached)));
 }
 
 }  // namespace
@@ -171,6 +184,7 @@ bool find_lines(Session& session, const GoalStages& stages, const LineAim& aim,
     const DensityMatch match = match_density(session, stages);
     follow_density(session, stages, match, aim);
     search_with_density(session, stages, match, aim);
+    warn_of_density(session, match);
     return false;
   }
   for (std::int64_t round = 0; round < feedback_rounds.value_or(kFeedbackRounds); ++round) {

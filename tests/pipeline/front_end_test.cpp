@@ -169,6 +169,24 @@ TEST_F(FrontEnd, FollowsADensity) {
             "no vertex property 'density'");
 }
 
+/// Cells of 300 vertices on a sphere cannot be eight times smaller on one side of a circle.
+TEST_F(FrontEnd, SaysHowFarADensityIsFollowed) {
+  must("strake sample sphere -o sphere.ply --faces 4000");
+  const PolyMesh sphere = read("sphere.ply");
+  const auto say = [&](const std::string& upper) {
+    std::string text = "ply\nformat ascii 1.0\nelement vertex " +
+                       std::to_string(sphere.vertex_count()) +
+                       "\nproperty float density\nend_header\n";
+    for (const Vec3& p : sphere.positions) text += p.z() > 0 ? upper : "1\n";
+    put("density.ply", text);
+    return run("strake remesh sphere.ply --no-evaluate -o out.obj --density density.ply "
+               "--vertices 300")
+        .err;
+  };
+  EXPECT_NE(say("64\n").find("warning: the density is followed for"), std::string::npos);
+  EXPECT_EQ(say("1\n").find("warning: the density"), std::string::npos);
+}
+
 /// Guides by the real programs; what they do to the result is a test of the stage smooth.
 TEST_F(FrontEnd, FollowsGuides) {
   put("guides.obj", "v 1.4 0 0\nv 1.34 0.2 0.2\nv 1.2 0.3 0.32\nl 1 2 3\n");
