@@ -1,5 +1,7 @@
 #include "stages/import/features.h"
 
+#include <tbb/parallel_for.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -27,11 +29,11 @@ constexpr double kDegree = std::numbers::pi / 180;
 /// Angle by which the surface is bent at each half-edge's edge; 0 on the boundary.
 std::vector<float> bend_angles(const TriMesh& mesh, const std::vector<Vec3>& normals) {
   std::vector<float> bend(mesh.halfedge_count(), 0);
-  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+  tbb::parallel_for(Index{0}, mesh.halfedge_count(), [&](Index h) {
     const Index twin = mesh.twin[h];
-    if (twin == kNone || h > twin) continue;
+    if (twin == kNone || h > twin) return;
     bend[h] = bend[twin] = static_cast<float>(angle_between(normals[h / 3], normals[twin / 3]));
-  }
+  });
   return bend;
 }
 

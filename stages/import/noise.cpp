@@ -1,5 +1,7 @@
 #include "stages/import/noise.h"
 
+#include <tbb/parallel_for.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -29,24 +31,40 @@ struct Bends {
     }
   }
 
-  /// Calls use(half-edge, bend in degrees, length) for each inner edge.
+  /// Calls use(half-edge, bend in degrees, length) for each inner edge, in order. Bends, which take
+  /// most of the time, are computed on all threads, some at a time.
   template <class Use>
   void for_each(const Use& use) const {
-    for (Index h = 0; h < mesh_.halfedge_count(); ++h) {
-      const Index twin = mesh_.twin[h];
-      if (twin == kNone || h > twin) continue;
-      const Vec3& left = area_normals_[TriMesh::face_of(h)];
-      const Vec3& right = area_normals_[TriMesh::face_of(twin)];
-      const Vec3 along = mesh_.positions[mesh_.to(h)] - mesh_.positions[mesh_.from(h)];
-      const double length = along.norm();
-      if (!(length > 0) || !(left.norm() > 0) || !(right.norm() > 0)) continue;
-      const double bend = std::atan2(left.cross(right).dot(along) / length, left.dot(right)) * 180 /
-                          std::numbers::pi;
-      use(h, bend, length);
+    std::vector<Bend> block(std::min(kAtATime, mesh_.halfedge_count()));
+    for (Index first = 0; first < mesh_.halfedge_count(); first += kAtATime) {
+      const Index count = std::min(kAtATime, mesh_.halfedge_count() - first);
+      tbb::parallel_for(Index{0}, count, [&](Index i) { block[i] = bend_at(first + i); });
+      for (Index i = 0; i < count; ++i) {
+        if (block[i].length > 0) use(first + i, block[i].degrees, block[i].length);
+      }
     }
   }
 
  private:
+  static constexpr Index kAtATime = 1 << 16;
+
+  struct Bend {
+    double degrees = 0;
+    double length = 0;  ///< 0: that of no inner edge, or of none between faces with an area
+  };
+
+  [[nodiscard]] Bend bend_at(Index h) const {
+    const Index twin = mesh_.twin[h];
+    if (twin == kNone || h > twin) return {};
+    const Vec3& left = area_normals_[TriMesh::face_of(h)];
+    const Vec3& right = area_normals_[TriMesh::face_of(twin)];
+    const Vec3 along = mesh_.positions[mesh_.to(h)] - mesh_.positions[mesh_.from(h)];
+    const double length = along.norm();
+    if (!(length > 0) || !(left.norm() > 0) || !(right.norm() > 0)) return {};
+    const double bend = std::atan2(left.cross(right).dot(along) / length, left.dot(right));
+    return {bend * 180 / std::numbers::pi, length};
+  }
+
   const TriMesh& mesh_;
   std::vector<Vec3> area_normals_;
 };
