@@ -21,6 +21,7 @@
 #include "stages/import/sheets.h"
 #include "stages/import/soup.h"
 #include "stages/import/triangulate.h"
+#include "stages/import/voxel_steps.h"
 #include "stages/import/weld.h"
 
 namespace strake {
@@ -172,12 +173,22 @@ void report_noise(const TriMesh& mesh, Report& report) {
                   noise.median_bend_deg));
 }
 
-/// Creases are held where noise leaves them to be seen.
+void warn_of_steps(const TriMesh& mesh, const import::FeatureCounts& counts, Report& report) {
+  constexpr double kFew = 0.01;  // share of the edges: not worth a look
+  if (counts.strong_edges < kFew * 1.5 * mesh.face_count() || !import::has_voxel_steps(mesh)) {
+    return;
+  }
+  report.warn(
+      "all vertices lie on a grid, as those of a segmented volume do, and its steps are kept as "
+      "features; --denoise 20 takes them off");
+}
+
+/// Creases are held where noise leaves them to be seen, and those of a grid are none.
 void take_noise_off(TriMesh& mesh, const ImportOptions& options, const PolyMesh& soup,
                     Report& report) {
   /// Share of the diagonal that noise is hardly larger than on a surface that is not rough.
   constexpr double kFar = 0.01;
-  const bool is_rough = import::measure_noise(mesh).is_much();
+  const bool is_rough = import::measure_noise(mesh).is_much() || import::has_voxel_steps(mesh);
   if (!is_rough) {
     const FeatureRules creases = {
         .angle_deg = options.feature_angle_deg, .labels = false, .seams = false};
@@ -308,6 +319,7 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
   warn_of_many_seams(result.mesh, features, result.report);
   if (!options.no_attributes) warn_of_open_labels(features, result.report);
   report_noise(result.mesh, result.report);
+  warn_of_steps(result.mesh, features, result.report);
   divide_long_edges(result.mesh, options, result.report);
   build_wedges(result.mesh);
   observer.report("checking", 0.8);
