@@ -199,6 +199,7 @@ std::string unknown_word(const CLI::App& app) {
   constexpr bool kOfCommandsToo = true;
   const bool lacks_command = &command == &app && !command_tree(app).commands.empty();
   for (const std::string& word : app.remaining(kOfCommandsToo)) {
+    if (word == "%") return "there is a '%' by itself: write shares without a blank, as in 0.1%";
     if (word.front() != '-' && !lacks_command) continue;
     const std::string name = word.substr(0, word.find('='));
     if (word.front() != '-') {

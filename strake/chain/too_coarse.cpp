@@ -42,6 +42,8 @@ constexpr double kVeryMuchLess = 0.25;
 constexpr double kHardlyMore = 1.1;
 constexpr double kMissed = 0.25;
 constexpr double kMore = 1.5;
+/// Share of faces that are no quads, as lines leave it: of more one is told.
+constexpr double kUsuallyOdd = 0.05;
 /// Times that the count is corrected where faces are counted, and error that is small enough.
 constexpr int kMostCorrections = 3;
 constexpr double kCountAccuracy = 0.02;
@@ -127,14 +129,16 @@ bool decimate_if_too_coarse(Session& session, const GoalStages& stages, Counted 
     session.say(std::string("warning: kept the lines: ") + error.what());
     return false;
   }
-  if (!is_much_better(faults_of(other, counted, wanted), faults)) return false;
+  const ResultFaults decimated = faults_of(other, counted, wanted);
+  if (!is_much_better(decimated, faults)) return false;
   session = other;
   session.keep(stages.decimate);
   session.keep(stages.fit);
   session.say(fmt::format(
-      "warning: lines are too coarse for this shape at {} {}: the result was decimated instead, "
-      "and has more triangles; ask for more, or give --lines-only",
-      wanted, name_of(counted)));
+      "warning: lines are too coarse for this shape at {} {}: the result was decimated instead{}; "
+      "--lines-only keeps lines",
+      wanted, name_of(counted),
+      decimated.odd > kUsuallyOdd ? ", and has more triangles: ask for more" : ""));
   return true;
 }
 

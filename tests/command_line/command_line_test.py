@@ -177,6 +177,13 @@ class Suggestions(unittest.TestCase):
             self.assertNotIn("did you mean", message)
             self.assertIn("chocolate", message)
 
+    def test_shares_are_one_word(self):
+        for words in (("strake", "remesh", "a.ply", "-o", "b.obj", "--tolerance", "0.1", "%"),
+                      ("strake-tensor", "mesh.hdf", "-o", "t.hdf", "--radius", "1", "%")):
+            code, message = said(*words)
+            self.assertEqual(code, 2, message)
+            self.assertIn("without a blank, as in 0.1%", message)
+
 
 class Help(unittest.TestCase):
     def test_teaches_by_example(self):

@@ -68,8 +68,8 @@ TEST(VoxelSteps, AreFoundOnAGridOfAnySpacing) {
   const auto ball = [](const Voxel& at) { return is_in_ball(at, kSize); };
   EXPECT_TRUE(has_steps(boxes(kSize, Vec3(1, 1, 1), ball)));
   EXPECT_TRUE(has_steps(boxes(kSize, Vec3(0.7, 0.7, 3), ball)));
-  const PolyMesh away =
-      support::transformed(boxes(kSize, Vec3(1, 1, 1), ball), 1e-3 * Mat3::Identity(), Vec3(5, 6, 7));
+  const PolyMesh away = support::transformed(boxes(kSize, Vec3(1, 1, 1), ball),
+                                             1e-3 * Mat3::Identity(), Vec3(5, 6, 7));
   EXPECT_TRUE(has_steps(away));
 }
 
