@@ -20,6 +20,7 @@
 #include "common/geometry/face_crossings/face_crossings.h"
 #include "common/geometry/nearest_on_surface.h"
 #include "common/geometry/poly_topology/face_shape.h"
+#include "common/geometry/poly_topology/poly_edges.h"
 #include "common/geometry/poly_topology/poly_topology.h"
 #include "stages/refine/cells_beyond.h"
 #include "stages/refine/changes_within.h"
@@ -125,15 +126,17 @@ class Refinement {
       const Vec3 normal = newell_normal(positions_, quads_.mesh.face(f));
       for (const Index v : quads_.mesh.face(f)) normals_[v] += normal;
     }
+    find_boundary();
     std::vector<char> chosen(static_cast<std::size_t>(quads_.mesh.face_count()), 0);
     EdgeMarks marks;
     for (const Target& target : targets) {
+      if (add_jags(target.face, tolerance, marks)) continue;
       chosen[target.face] = 1;
       const std::span<const Index> face = quads_.mesh.face(target.face);
       for (const std::size_t i : edges_to_divide(surfaces, target, tolerance)) {
         const Index a = face[i];
         const Index b = face[(i + 1) % face.size()];
-        if (marks.at(a, b) == kNone) marks.set(a, b, add_between(a, b, normals_[a] + normals_[b]));
+        if (marks.at(a, b) == kNone) marks.set(a, b, add_on_edge(a, b));
       }
     }
     const auto add_centre = [&](Index a, Index b, const std::vector<Index>& ring) {
@@ -158,14 +161,59 @@ class Refinement {
     return static_cast<Index>(positions_.size()) - 1;
   }
 
+  void find_boundary() {
+    boundary_ = {};
+    const PolyEdges edges = collect_edges(quads_.mesh);
+    for (Index e = 0; e < edges.edge_count(); ++e) {
+      if (edges.sides_of(e).size() > 1) continue;
+      boundary_.set(edges.vertices[e][0], edges.vertices[e][1], e);
+    }
+  }
+  [[nodiscard]] bool is_boundary(Index a, Index b) const { return boundary_.at(a, b) != kNone; }
+
+  /// Puts all corners of a jagged boundary on the edges of a cell that stand for it. One after the
+  /// other they would come to lie across what divides the cell by then.
+  /// \return whether there are any
+  bool add_jags(Index cell, double tolerance, EdgeMarks& marks) {
+    bool any = false;
+    const std::span<const Index> face = quads_.mesh.face(cell);
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      const Index a = face[i];
+      const Index b = face[(i + 1) % face.size()];
+      if (!is_boundary(a, b)) continue;
+      std::vector<Index> jags;
+      for (const SurfacePoint& point :
+           points_.jags_between(foot_of(a), foot_of(b), normals_[a] + normals_[b], tolerance)) {
+        jags.push_back(add(point));
+      }
+      if (jags.empty()) continue;
+      any = true;
+      marks.set_chain(a, b, std::move(jags));
+    }
+    return any;
+  }
+
+  /// \param a, b  in the sense of a face
+  Index add_on_edge(Index a, Index b) {
+    if (is_boundary(a, b)) {
+      if (const auto point = points_.between_on_boundary(foot_of(a), foot_of(b)))
+        return add(*point);
+    }
+    return add_between(a, b, normals_[a] + normals_[b]);
+  }
+
   Index add_between(Index a, Index b, const Vec3& normal) {
     const Vec3 middle = 0.5 * (positions_[a] + positions_[b]);
     return add(points_.between(foot_of(a), foot_of(b), middle, normal));
   }
 
-  /// Whether an edge is farther from the surface than the tolerance.
+  /// Whether an edge is farther from the surface than the tolerance, or on the boundary from what
+  /// it stands for: the surface may reach beyond it there.
   [[nodiscard]] bool is_beyond(const SurfaceDistance& input, Index a, Index b,
                                double tolerance) const {
+    if (is_boundary(a, b) && points_.boundary_height(foot_of(a), foot_of(b)) > tolerance) {
+      return true;
+    }
     return std::ranges::any_of(kPlacesOnEdge, [&](double share) {
       const Vec3 p = positions_[a] + share * (positions_[b] - positions_[a]);
       return input.closest_within(p, tolerance).triangle == kNone;
@@ -244,6 +292,7 @@ class Refinement {
   SurfacePoints points_;
   CrossingPlaces crossing_;
   std::size_t max_sides_;
+  EdgeMarks boundary_;           ///< edges of one face
   std::vector<Vec3> positions_;  ///< [V] relative to the mesh's origin
   std::vector<Vec3> normals_;    ///< [V] sums over the faces around
 };

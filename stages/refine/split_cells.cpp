@@ -2,7 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <map>
+#include <span>
 
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_edges.h"
@@ -14,6 +17,8 @@ using Ring = std::vector<Index>;
 
 /// Around a centre at least this convex corners, as the sine of the angle; else a centre is made.
 constexpr double kLeastConvex = 0.2;
+/// Likewise of a quad of two triangles, which are as sharp without: 3 degrees.
+constexpr double kLeastConvexOfPairs = 0.05;
 
 /// Sine of the sharpest turn at a corner of a ring; negative where one is concave.
 double least_turn(const std::vector<Vec3>& positions, const Ring& ring, const Vec3& normal) {
@@ -56,7 +61,65 @@ class FaceSplitter {
     }
   }
 
+  /// Into triangles that keep to the inside of a ring however jagged, and quads of pairs of them.
+  void split_jagged(const Ring& ring) {
+    std::vector<std::array<Index, 3>> triangles;
+    triangulate_face(positions_, ring, triangles);
+    const std::vector<Diagonal> diagonals = diagonals_of(triangles);
+    if (std::ranges::any_of(diagonals, [&](const Diagonal& d) {
+          return edges_.at(d.quad[0], d.quad[2]) != kNone;
+        })) {
+      by_diagonals(ring, true);
+      return;
+    }
+    std::vector<char> is_paired(triangles.size(), 0);
+    for (const Diagonal& d : diagonals) {
+      if (d.shape > kLeastConvexOfPairs && is_paired[d.sides[0]] == 0 &&
+          is_paired[d.sides[1]] == 0) {
+        is_paired[d.sides[0]] = is_paired[d.sides[1]] = 1;
+        result_.add_face(d.quad);
+      } else {
+        edges_.set(d.quad[0], d.quad[2], d.quad[0]);
+      }
+    }
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      if (is_paired[t] == 0) result_.add_face(triangles[t]);
+    }
+  }
+
  private:
+  /// Of a triangulated ring, from quad[0] to quad[2] of the two triangles at its sides.
+  struct Diagonal {
+    std::array<std::size_t, 2> sides;
+    std::array<Index, 4> quad;
+    double shape;  ///< sine of the quad's sharpest turn
+  };
+
+  /// Those that leave the best quads first.
+  [[nodiscard]] std::vector<Diagonal> diagonals_of(
+      const std::vector<std::array<Index, 3>>& triangles) const {
+    std::vector<Diagonal> diagonals;
+    std::map<std::array<Index, 2>, std::array<std::size_t, 2>> side_of;  // triangle and corner
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Index a = triangles[t][i];
+        const Index b = triangles[t][(i + 1) % 3];
+        side_of[{a, b}] = {t, i};
+        const auto other = side_of.find({b, a});
+        if (other == side_of.end()) continue;
+        const auto [beyond, corner] = other->second;
+        const std::array<Index, 4> quad = {b, triangles[t][(i + 2) % 3], a,
+                                           triangles[beyond][(corner + 2) % 3]};
+        const Ring ring(quad.begin(), quad.end());
+        const Vec3 normal = newell_normal(positions_, ring).normalized();
+        diagonals.push_back({{t, beyond}, quad, least_turn(positions_, ring, normal)});
+      }
+    }
+    std::stable_sort(diagonals.begin(), diagonals.end(),
+                     [](const Diagonal& a, const Diagonal& b) { return a.shape > b.shape; });
+    return diagonals;
+  }
+
   [[nodiscard]] bool is_good(const Ring& ring) const {
     return ring.size() <= max_sides_ && !is_concave_face(positions_, ring);
   }
@@ -140,15 +203,23 @@ PolyMesh split_cells(const PolyMesh& mesh, const std::vector<char>& divide, cons
     const std::span<const Index> face = mesh.face(f);
     Ring ring;
     std::vector<char> is_new;
+    bool is_jagged = false;
     for (std::size_t i = 0; i < face.size(); ++i) {
       ring.push_back(face[i]);
       is_new.push_back(0);
+      const std::span<const Index> chain = marks.chain(face[i], face[(i + 1) % face.size()]);
+      ring.insert(ring.end(), chain.begin(), chain.end());
+      is_jagged = is_jagged || !chain.empty();
       const Index middle = marks.at(face[i], face[(i + 1) % face.size()]);
       if (middle == kNone) continue;
       ring.push_back(middle);
       is_new.push_back(1);
     }
-    splitter.split(ring, is_new, divide[f] != 0);
+    if (is_jagged) {
+      splitter.split_jagged(ring);
+    } else {
+      splitter.split(ring, is_new, divide[f] != 0);
+    }
   }
   result.positions = positions;
   return result;

@@ -1,6 +1,7 @@
 #include "stages/refine/way_split.h"
 
 #include <algorithm>
+#include <array>
 
 namespace strake {
 namespace {
@@ -46,6 +47,38 @@ WayPlace split_of_way(const std::vector<Vec3>& places) {
     best = {i, 0};
   }
   return best;
+}
+
+std::vector<std::size_t> corners_of_way(const std::vector<Vec3>& places, double within) {
+  std::vector<std::size_t> corners;
+  std::vector<std::array<std::size_t, 2>> parts;
+  if (places.size() > 2) parts.push_back({0, places.size() - 1});
+  while (!parts.empty()) {
+    const auto [first, last] = parts.back();
+    parts.pop_back();
+    std::size_t farthest = first;
+    double height = within;
+    for (std::size_t i = first + 1; i < last; ++i) {
+      const double now = distance_to_chord(places[i], places[first], places[last]);
+      if (now <= height) continue;
+      height = now;
+      farthest = i;
+    }
+    if (farthest == first) continue;
+    corners.push_back(farthest);
+    parts.push_back({first, farthest});
+    parts.push_back({farthest, last});
+  }
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+double height_of_way(const std::vector<Vec3>& places) {
+  double height = 0;
+  for (const Vec3& p : places) {
+    height = std::max(height, distance_to_chord(p, places.front(), places.back()));
+  }
+  return height;
 }
 
 }  // namespace strake

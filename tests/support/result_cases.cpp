@@ -57,6 +57,20 @@ Case sheets(Index n, Index cells, const std::vector<Height>& heights) {
   return result;
 }
 
+Case toothed_sheet(Index n, Index cells, double height) {
+  Case result = grid(n, cells, [](double, double) { return 0.0; });
+  PolyMesh soup;
+  for (const Vec3& p : result.mesh.positions) soup.positions.push_back(p + result.mesh.origin);
+  for (const auto& face : result.mesh.faces) soup.add_face(face);
+  for (Index i = 0; i < n; ++i) {
+    const Index left = n * (n + 1) + i;
+    soup.add_face(std::array<Index, 3>{left + 1, soup.vertex_count(), left});
+    soup.positions.emplace_back((i + 0.5) / n, 1 + height, 0);
+  }
+  result.mesh = plain_tri_mesh(soup);
+  return result;
+}
+
 Case on_triangles(const PolyMesh& faces, const FaceTriangles& cut) {
   PolyMesh surface;
   surface.positions = faces.positions;

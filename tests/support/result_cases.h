@@ -31,6 +31,11 @@ inline Case bent_strip(double k) {
   return grid(64, 1, [&](double x, double) { return k * x * (1 - x) / 2; });
 }
 
+/// A flat sheet of n x n squares with n teeth of this height on its upper side, each a triangle on
+/// the side of a square, and a result of cells x cells faces under them. Face 2 n^2 + i is tooth i.
+/// \pre cells divides n
+Case toothed_sheet(Index n, Index cells, double height);
+
 /// Faces as the result, and triangles between their vertices as the surface.
 /// \param cut  of all faces
 Case on_triangles(const PolyMesh& faces, const FaceTriangles& cut);

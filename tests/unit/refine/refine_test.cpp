@@ -27,6 +27,7 @@ namespace {
 using support::bent_strip;
 using support::Case;
 using support::grid;
+using support::toothed_sheet;
 
 RefineOptions within(double tolerance) {
   RefineOptions options;
@@ -43,6 +44,11 @@ std::multiset<std::size_t> sides(const PolyMesh& mesh) {
   std::multiset<std::size_t> result;
   for (Index f = 0; f < mesh.face_count(); ++f) result.insert(mesh.face(f).size());
   return result;
+}
+
+/// Where a vertex of the result lies on the surface.
+SurfacePoint foot(const Case& c, Index v) {
+  return {c.quads.provenance.face[v], c.quads.provenance.barycentric[v]};
 }
 
 /// A grid of unit squares as faces, flat.
@@ -97,6 +103,33 @@ TEST(SplitCells, MarksSideBySideMakeThreeQuads) {
   const PolyMesh result = split(squares(3), {{5, 6}, {6, 10}}, {4});
   EXPECT_EQ(sides(result).count(4), 9U);
   EXPECT_EQ(sides(result).count(5), 2U);
+}
+
+/// Cells at a boundary with teeth keep inside it, whichever way they are divided.
+TEST(SplitCells, ChainsOfTeethMakeFacesInsideThem) {
+  const PolyMesh mesh = squares(1);
+  std::vector<Vec3> positions = mesh.positions;
+  EdgeMarks marks;
+  std::vector<Index> chain;  // on the upper side, from right to left
+  const Index teeth = 5;
+  for (Index i = 1; i < 2 * teeth; ++i) {
+    chain.push_back(static_cast<Index>(positions.size()));
+    positions.emplace_back(1 - i / (2.0 * teeth), i % 2 == 0 ? 1.0 : 0.7, 0.0);
+  }
+  marks.set_chain(3, 2, chain);
+  EXPECT_EQ(marks.at(3, 2), kNone);
+  const PolyMesh result =
+      split_cells(mesh, {0}, marks, 5, positions,
+                  [](Index, Index, const std::vector<Index>&) { return kNone; });
+  EXPECT_TRUE(analyse(result).is_oriented_manifold());
+  EXPECT_EQ(result.vertex_count(), 4 + 2 * teeth - 1);
+  // As all faces are turned up, none goes beyond the outline: five notches of height 0.3.
+  for (Index f = 0; f < result.face_count(); ++f) {
+    EXPECT_GT(newell_normal(result.positions, result.face(f)).z(), 0);
+    EXPECT_LE(result.face(f).size(), 4U);
+    EXPECT_FALSE(is_concave_face(result.positions, result.face(f)));
+  }
+  EXPECT_NEAR(total_area(result), 1 - 0.3 / 2, 1e-12);
 }
 
 /// The pentagon where a line ends: going on to the opposite edge leaves two quads.
@@ -173,6 +206,18 @@ TEST(WaySplit, IsAtARidgeOrInTheMiddle) {
 
 /// A cell that bends one way is cut across that way: 2^n columns and one row. A column of width w
 /// is off by k w^2 / 8, so the tolerance decides n.
+TEST(WaySplit, CornersAreWhereAChainLeavesStraightPieces) {
+  // A tooth of height 1, and one of 0.1.
+  const std::vector<Vec3> way = {{0, 0, 0}, {1, 0, 0},   {1.5, 1, 0}, {2, 0, 0},
+                                 {3, 0, 0}, {4, 0.1, 0}, {5, 0, 0}};
+  EXPECT_EQ(corners_of_way(way, 0.2), (std::vector<std::size_t>{1, 2, 3}));
+  EXPECT_EQ(corners_of_way(way, 0.04), (std::vector<std::size_t>{1, 2, 3, 4, 5}));
+  EXPECT_TRUE(corners_of_way(way, 1).empty());
+  EXPECT_TRUE(corners_of_way({{0, 0, 0}, {1, 0, 0}}, 0).empty());
+  EXPECT_EQ(height_of_way(way), 1);
+  EXPECT_EQ(height_of_way({}), 0);
+}
+
 TEST(Refine, CutsAcrossTheDirectionThatBends) {
   const double k = 0.3;
   const QuadMesh result = refined(bent_strip(k), within(1.05 * k / 8 / 16));
@@ -411,20 +456,114 @@ TEST(SurfacePoints, MiddlesStayOnTheWayOverTheSurface) {
   const Case c =
       grid(64, 2, [](double x, double) { return -2 * std::exp(-50 * (x - 0.5) * (x - 0.5)); });
   const SurfacePoints points(c.mesh);
-  const auto foot = [&](Index v) {
-    return SurfacePoint{c.quads.provenance.face[v], c.quads.provenance.barycentric[v]};
-  };
   // Vertices 3 and 5 are at y = 0.5, on the two banks; the way between is about 4.1 long.
-  const auto middle = split_of_section(c.mesh, foot(3), foot(5), Vec3::UnitZ(), 10);
+  const auto middle = split_of_section(c.mesh, foot(c, 3), foot(c, 5), Vec3::UnitZ(), 10);
   ASSERT_TRUE(middle.has_value());
   EXPECT_NEAR(place_of(c.mesh, *middle).z(), -2, 0.01);
   EXPECT_NEAR(place_of(c.mesh, *middle).x(), 0.5, 0.01);
-  EXPECT_FALSE(split_of_section(c.mesh, foot(3), foot(5), Vec3::UnitZ(), 4).has_value());
+  EXPECT_FALSE(split_of_section(c.mesh, foot(c, 3), foot(c, 5), Vec3::UnitZ(), 4).has_value());
   // On one bank, between vertices 5 and 8, it is the middle of the edge.
   const Vec3 chord = (c.quads.mesh.positions[5] + c.quads.mesh.positions[8]) / 2;
   EXPECT_NEAR(
-      (place_of(c.mesh, points.between(foot(5), foot(8), chord, Vec3::UnitZ())) - chord).norm(), 0,
-      1e-9);
+      (place_of(c.mesh, points.between(foot(c, 5), foot(c, 8), chord, Vec3::UnitZ())) - chord)
+          .norm(),
+      0, 1e-9);
+}
+
+/// An edge of a result over a jagged boundary has its new vertices on that, whether it ends at
+/// corners or passes them.
+TEST(SurfacePoints, LeadAlongJaggedBoundaries) {
+  Case c = toothed_sheet(8, 1, 0.1);
+  std::ranges::fill(c.mesh.is_corner, 1);  // the whole boundary turns
+  const SurfacePoints points(c.mesh);
+  // Around the surface on the left: from the right end of the toothed side to its left one.
+  const SurfacePoint right = foot(c, 3);
+  const SurfacePoint left = foot(c, 2);
+  EXPECT_NEAR(points.boundary_height(right, left), 0.1, 1e-12);
+  const auto middle = points.between_on_boundary(right, left);
+  ASSERT_TRUE(middle.has_value());
+  // Tooth 3 or 4: the middle of the way is between them, and clearly less far from the chord.
+  EXPECT_NEAR(place_of(c.mesh, *middle).y() + c.mesh.origin.y(), 1.1, 1e-12);
+  // Not the long way around, against the sense of the boundary.
+  EXPECT_FALSE(points.between_on_boundary(left, right).has_value());
+  EXPECT_EQ(points.boundary_height(left, right), 0);
+}
+
+/// The middle of an edge across a notch is not where the boundary has its vertex.
+TEST(SurfacePoints, MiddlesOfInnerEdgesLeaveTheBoundaryItsVertices) {
+  const Case c = toothed_sheet(8, 1, 0.02);
+  const SurfacePoints points(c.mesh);
+  const auto tip = [&](Index tooth) { return SurfacePoint{2 * 8 * 8 + tooth, {0, 1, 0}}; };
+  const Vec3 a = place_of(c.mesh, tip(3));
+  const Vec3 b = place_of(c.mesh, tip(4));
+  const Vec3 place = place_of(c.mesh, points.between(tip(3), tip(4), (a + b) / 2, Vec3::UnitZ()));
+  for (const Vec3& p : c.mesh.positions) EXPECT_GT((p - place).norm(), 1e-3);
+}
+
+/// Where an edge spans a hole, and the faces beside it are turned over, its middle stays on the
+/// sheet of its ends.
+TEST(SurfacePoints, MiddlesStayOnTheirSheetWhereFacesAreTurnedOver) {
+  PolyMesh soup;
+  for (const double z : {0.0, -3.0}) {
+    const Index first = soup.vertex_count();
+    for (Index i = 0; i < 16; ++i) soup.positions.emplace_back(i % 4, i / 4, z);
+    for (Index y = 0; y < 3; ++y) {
+      for (Index x = 0; x < 3; ++x) {
+        if (x == 1 && y == 1) continue;  // the hole
+        const Index a = first + 4 * y + x;
+        std::array<Index, 3> lower = {a, a + 1, a + 5};
+        std::array<Index, 3> upper = {a, a + 5, a + 4};
+        if (z < 0) {
+          std::swap(lower[0], lower[1]);
+          std::swap(upper[0], upper[1]);
+        }
+        soup.add_face(lower);
+        soup.add_face(upper);
+      }
+    }
+  }
+  TriMesh mesh = support::plain_tri_mesh(soup);
+  std::ranges::fill(mesh.is_corner, 1);  // so that no line goes around the hole
+  const SurfacePoints points(mesh);
+  const auto at_vertex = [&](Index v) {
+    const Index h = mesh.vertex_out[v];
+    SurfacePoint point{TriMesh::face_of(h), {0, 0, 0}};
+    point.barycentric[h % 3] = 1;
+    return point;
+  };
+  // Opposite corners of the hole.
+  const Vec3 middle = (mesh.positions[5] + mesh.positions[10]) / 2;
+  const SurfacePoint found =
+      points.between(at_vertex(5), at_vertex(10), middle, Vec3(-Vec3::UnitZ()));
+  EXPECT_NEAR(place_of(mesh, found).z(), mesh.positions[5].z(), 1e-12);
+}
+
+/// Teeth of the boundary, higher than the tolerance, take a vertex each at their tips and at the
+/// valleys between, and nothing else changes.
+TEST(Refine, DividesOnlyAtAJaggedBoundary) {
+  const Index teeth = 64;
+  const Index cells = 4;
+  Case c = toothed_sheet(teeth, cells, 0.03);
+  std::ranges::fill(c.mesh.is_corner, 1);
+  const QuadMesh result = refined(c, within(0.004));
+  const Index valleys = teeth - cells;  // but for those at the corners of cells
+  EXPECT_EQ(result.mesh.vertex_count(), c.quads.mesh.vertex_count() + teeth + valleys);
+  Index inside = 0;
+  for (Index f = 0; f < result.mesh.face_count(); ++f) {
+    const auto face = result.mesh.face(f);
+    const bool is_inside = std::ranges::all_of(
+        face, [&](Index v) { return result.mesh.positions[v].y() < 1 - 0.9 / cells; });
+    inside += is_inside && face.size() == 4 ? 1 : 0;
+  }
+  EXPECT_EQ(inside, cells * (cells - 1));
+}
+
+/// A cell may lie along any number of teeth.
+TEST(Refine, ReachesAllTeethAlongACell) {
+  Case c = toothed_sheet(64, 2, 0.016);
+  std::ranges::fill(c.mesh.is_corner, 1);
+  const QuadMesh result = refined(c, within(0.004));
+  EXPECT_TRUE(check_tolerance(ComparedSurfaces(c.mesh, result), 0.004).empty());
 }
 
 TEST(RefineCells, UnfoldsFacesThatCrossWithinTheTolerance) {
