@@ -18,6 +18,7 @@
 #include "stages/import/features.h"
 #include "stages/import/flat_faces.h"
 #include "stages/import/noise.h"
+#include "stages/import/sew.h"
 #include "stages/import/sheets.h"
 #include "stages/import/soup.h"
 #include "stages/import/triangulate.h"
@@ -71,7 +72,7 @@ void place(Soup& soup, TriMesh& frame) {
 }
 
 /// What was repaired, as sentences; what is no defect is not among them.
-std::vector<std::string> describe(const Repairs& repairs) {
+std::vector<std::string> describe(const Repairs& repairs, double diagonal) {
   std::vector<std::string> sentences;
   const auto add = [&](std::int64_t count, const char* what) {
     if (count > 0) sentences.push_back(fmt::format("{}: {}", what, count));
@@ -82,6 +83,12 @@ std::vector<std::string> describe(const Repairs& repairs) {
   add(repairs.inner_faces, "faces dropped that were walls between touching solids");
   add(repairs.faces_without_area, "faces dropped that belong to pieces without area");
   add(repairs.welded_vertices, "vertices merged where borders coincide");
+  if (repairs.sewn_vertices > 0) {
+    sentences.push_back(
+        fmt::format("vertices merged across gaps between borders, of up to {:.2g} % of the "
+                    "diagonal: {}",
+                    100 * repairs.widest_gap / diagonal, repairs.sewn_vertices));
+  }
   add(repairs.flipped_faces, "faces turned over to agree with their neighbours");
   add(repairs.non_orientable_cuts, "edges cut because the surface has only one side");
   add(repairs.non_manifold_edges, "edges of more than two faces taken apart");
@@ -92,25 +99,27 @@ std::vector<std::string> describe(const Repairs& repairs) {
   return sentences;
 }
 
-std::string list_repairs(const Repairs& repairs) {
+std::string list_repairs(const Repairs& repairs, double diagonal) {
   std::string list;
-  for (const std::string& sentence : describe(repairs)) list += "\n  " + sentence;
+  for (const std::string& sentence : describe(repairs, diagonal)) list += "\n  " + sentence;
   return list;
 }
 
-void refuse_repairs(const Repairs& repairs) {
-  const std::string list = list_repairs(repairs);
+void refuse_repairs(const Repairs& repairs, double diagonal) {
+  const std::string list = list_repairs(repairs, diagonal);
   if (list.empty()) return;
   throw InputError("the mesh needs repairs, which --strict forbids:" + list);
 }
 
 /// Refuses repairs that take away too much of the surface.
-void check_removed(double removed_percent, double most_removed_percent, const Repairs& repairs) {
+void check_removed(double removed_percent, double most_removed_percent, const Repairs& repairs,
+                   double diagonal) {
   if (removed_percent <= most_removed_percent) return;
   throw InputError(fmt::format(
       "repairs would remove {:.1f} % of the surface, and only {} % are allowed; let them "
       "with --most-removed {:.0f}, or repair the mesh before:{}",
-      removed_percent, most_removed_percent, std::ceil(removed_percent), list_repairs(repairs)));
+      removed_percent, most_removed_percent, std::ceil(removed_percent),
+      list_repairs(repairs, diagonal)));
 }
 
 void report_repairs(const Repairs& repairs, double removed_percent, double diagonal,
@@ -124,6 +133,8 @@ void report_repairs(const Repairs& repairs, double removed_percent, double diago
   report.set("repairs.removed_percent", removed_percent);
   report.set("repairs.welded_vertices", repairs.welded_vertices);
   report.set("repairs.weld_tolerance", repairs.weld_tolerance / diagonal);
+  report.set("repairs.sewn_vertices", repairs.sewn_vertices);
+  report.set("repairs.widest_gap", repairs.widest_gap / diagonal);
   report.set("repairs.flipped_faces", repairs.flipped_faces);
   report.set("repairs.non_orientable_cuts", repairs.non_orientable_cuts);
   report.set("repairs.non_manifold_edges", repairs.non_manifold_edges);
@@ -132,7 +143,26 @@ void report_repairs(const Repairs& repairs, double removed_percent, double diago
   report.set("repairs.collapsed_edges", repairs.collapsed_edges);
   report.set("repairs.flipped_edges", repairs.flipped_edges);
   report.set("repairs.unreferenced_vertices", repairs.unreferenced_vertices);
-  for (std::string& sentence : describe(repairs)) report.warn(std::move(sentence));
+  for (std::string& sentence : describe(repairs, diagonal)) report.warn(std::move(sentence));
+}
+
+/// What stays open here is a crack in the result.
+void report_near_borders(const import::NearBorders& near, double diagonal, Report& report) {
+  report.set("borders.near_edges", near.edges);
+  report.set("borders.near_widest", near.widest / diagonal);
+  if (near.edges == 0) return;
+  constexpr double kTouching = 1e-9;
+  const std::string where =
+      near.widest <= kTouching * diagonal
+          ? "touch another border"
+          : fmt::format("lie within {:.2g} % of the diagonal of another border",
+                        100 * near.widest / diagonal);
+  report.warn(fmt::format(
+      "{} border edges {} without being joined, so the result may have cracks there: their ends "
+      "do not lie side by side, or the gap is wide, or open all along like a slit; where the "
+      "surface should go on, close it before (merge vertices by distance, divide both sides "
+      "alike, or export with a finer tolerance)",
+      near.edges, where));
 }
 
 void report_census(const TriMesh& mesh, const Census& counts, Report& report) {
@@ -291,17 +321,19 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
   repairs.unreferenced_vertices = count_unreferenced(soup);
 
   observer.report("repairing", 0.1);
-  import::weld_borders(triangles, frame.diagonal, repairs);
+  std::vector<Index> border = import::weld_borders(triangles, frame.diagonal, repairs);
+  border = import::sew_gaps(triangles, border, frame.diagonal, repairs);
+  const import::NearBorders near = import::find_near_borders(triangles, border, frame.diagonal);
   import::drop_degenerate_faces(triangles, repairs);
   import::drop_duplicate_faces(triangles, repairs);
   import::remove_flat_faces(triangles, import::make_manifold(triangles, repairs), frame.diagonal,
                             repairs);
   import::drop_pieces_without_area(triangles, repairs);
   if (triangles.faces.empty()) throw InputError("the mesh has no face left after the repairs");
-  if (options.strict) refuse_repairs(repairs);
+  if (options.strict) refuse_repairs(repairs, frame.diagonal);
   const double removed_percent =
       100 * std::max(0.0, 1 - import::total_area(triangles) / (area - repairs.duplicate_area));
-  check_removed(removed_percent, options.most_removed_percent, repairs);
+  check_removed(removed_percent, options.most_removed_percent, repairs, frame.diagonal);
 
   observer.report("ordering", 0.5);
   result.mesh = import::assemble(triangles);
@@ -332,6 +364,7 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
   report_census(result.mesh, counts, result.report);
   warn_of_inside_out(result.mesh, counts, result.report);
   report_repairs(repairs, removed_percent, frame.diagonal, result.report);
+  report_near_borders(near, frame.diagonal, result.report);
   report_features(features, result.report);
   report_attributes(result.mesh.attributes, result.report);
   observer.report("done", 1);

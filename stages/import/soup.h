@@ -31,8 +31,9 @@ struct Soup {
 struct Repairs {
   std::int64_t unusable_faces = 0;      ///< non-finite, out of range, fewer than three corners
   std::int64_t triangulated_faces = 0;  ///< polygons cut into triangles; no defect
-  std::int64_t welded_vertices = 0;
-  std::int64_t degenerate_faces = 0;  ///< a corner twice
+  std::int64_t welded_vertices = 0;     ///< where borders coincide
+  std::int64_t sewn_vertices = 0;       ///< across gaps between borders
+  std::int64_t degenerate_faces = 0;    ///< a corner twice
   std::int64_t duplicate_faces = 0;
   double duplicate_area = 0;            ///< of all copies but one, model units squared
   std::int64_t inner_faces = 0;         ///< of walls between solids that touch
@@ -46,6 +47,7 @@ struct Repairs {
   std::int64_t collapsed_edges = 0;        ///< of zero length
   std::int64_t unreferenced_vertices = 0;  ///< dropped; no defect
   double weld_tolerance = 0;               ///< model units
+  double widest_gap = 0;                   ///< of those that were sewn, model units
 };
 
 /// Half-edges of a soup grouped by edge: those with the same two vertices, in order of index.

@@ -9,8 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "common/core/disjoint_sets.h"
-
 namespace strake::import {
 namespace {
 
@@ -119,23 +117,46 @@ void unite_edges(const Soup& soup, const ClusterEdge& a, const ClusterEdge& b,
   joined.unite(end_in(a, a.high), end_in(b, a.high));
 }
 
-void rename_vertices(Soup& soup, DisjointSets& joined, Repairs& repairs) {
-  for (Index v = 0; v < soup.vertex_count(); ++v) {
-    repairs.welded_vertices += joined.find(v) == v ? 0 : 1;
-  }
+}  // namespace
+
+std::int64_t rename_vertices(Soup& soup, DisjointSets& joined) {
+  std::int64_t gone = 0;
+  for (Index v = 0; v < soup.vertex_count(); ++v) gone += joined.find(v) == v ? 0 : 1;
+  if (gone == 0) return 0;
   for (Triangle& face : soup.faces) {
     for (Index& v : face) v = joined.find(v);
   }
+  return gone;
 }
 
-}  // namespace
+std::vector<Index> without_joined(const Soup& soup, const std::vector<Index>& border) {
+  using Edge = std::array<Index, 3>;  // lower and higher vertex, half-edge
+  std::vector<Edge> edges;
+  edges.reserve(border.size());
+  for (const Index h : border) {
+    const auto [low, high] = std::minmax({soup.from(h), soup.to(h)});
+    if (low != high) edges.push_back({low, high, h});
+  }
+  std::sort(edges.begin(), edges.end());
+  const auto is_same = [&](std::size_t i, std::size_t j) {
+    return edges[i][0] == edges[j][0] && edges[i][1] == edges[j][1];
+  };
+  std::vector<Index> left;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const bool is_single =
+        (i == 0 || !is_same(i - 1, i)) && (i + 1 == edges.size() || !is_same(i, i + 1));
+    if (is_single) left.push_back(edges[i][2]);
+  }
+  std::sort(left.begin(), left.end());
+  return left;
+}
 
-void weld_borders(Soup& soup, double diagonal, Repairs& repairs) {
+std::vector<Index> weld_borders(Soup& soup, double diagonal, Repairs& repairs) {
   constexpr double kTouching = 1e-9;
   constexpr double kNearlyWelded = 1e-6;
   Index edge_count = 0;
   const std::vector<Index> border = border_halfedges(soup, edge_count);
-  if (border.empty()) return;
+  if (border.empty()) return border;
   const bool is_unwelded = 2 * border.size() > static_cast<std::size_t>(edge_count);
   const double tolerance = (is_unwelded ? kNearlyWelded : kTouching) * diagonal;
 
@@ -154,9 +175,9 @@ void weld_borders(Soup& soup, double diagonal, Repairs& repairs) {
       unite_edges(soup, edges[i - 1], edges[i], clusters, joined);
     }
   }
-  const std::int64_t before = repairs.welded_vertices;
-  rename_vertices(soup, joined, repairs);
-  if (repairs.welded_vertices > before) repairs.weld_tolerance = tolerance;
+  repairs.welded_vertices = rename_vertices(soup, joined);
+  if (repairs.welded_vertices > 0) repairs.weld_tolerance = tolerance;
+  return without_joined(soup, border);
 }
 
 }  // namespace strake::import

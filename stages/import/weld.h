@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
+#include "common/core/disjoint_sets.h"
 #include "stages/import/soup.h"
 
 namespace strake::import {
@@ -9,7 +13,15 @@ namespace strake::import {
 /// Only edges with a single face take part, so what is closed already stays as it is, also where it
 /// touches itself; points that merely touch are not joined. The tolerance is 1e-9 of the diagonal,
 /// or 1e-6 where more than half of all edges have one face only (an unwelded soup).
+/// \return the half-edges of edges that have one face still, ascending
 /// Cost O(F + B log B) for B border edges.
-void weld_borders(Soup& soup, double diagonal, Repairs& repairs);
+std::vector<Index> weld_borders(Soup& soup, double diagonal, Repairs& repairs);
+
+/// Of half-edges on borders those whose edge is not another one's, too, and has two ends,
+/// ascending: what is left of borders after vertices were joined.
+std::vector<Index> without_joined(const Soup& soup, const std::vector<Index>& border);
+
+/// Replaces vertices by the lowest of those they are joined to. \return vertices that went
+std::int64_t rename_vertices(Soup& soup, DisjointSets& joined);
 
 }  // namespace strake::import
