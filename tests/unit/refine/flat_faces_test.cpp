@@ -111,6 +111,18 @@ TEST(MergePlaces, MakesTrianglesOfQuadsWithASideOfNoLength) {
   EXPECT_EQ(analyse(quads.mesh).euler, 1);
 }
 
+/// Two vertices of an edge at the same place are merged also where all faces have an area.
+TEST(FlatFaces, SidesOfNoLengthGo) {
+  const support::Case c = support::grid(8, 4, [](double, double) { return 0.0; });
+  ToleranceProof proof(std::make_shared<const InputSurface>(c.mesh), 1e-3);
+  QuadMesh quads = c.quads;
+  quads.mesh.positions[12] = quads.mesh.positions[13];
+  mend_flat_faces_within(proof, quads);
+  EXPECT_EQ(quads.mesh.vertex_count(), 24);
+  EXPECT_EQ(quads.mesh.face_count(), 16);
+  EXPECT_TRUE(analyse(quads.mesh).is_oriented_manifold());
+}
+
 /// Two flat triangles with one vertex of four faces: each could go, both would leave it two faces.
 TEST(MergePlaces, LeavesAVertexItsFacesWhereTwoPairsAreBesideIt) {
   QuadMesh quads;
