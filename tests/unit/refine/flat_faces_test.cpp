@@ -123,6 +123,21 @@ TEST(FlatFaces, SidesOfNoLengthGo) {
   EXPECT_TRUE(analyse(quads.mesh).is_oriented_manifold());
 }
 
+/// An edge from the boundary inwards goes to the boundary; one along it stays.
+TEST(MergePlaces, LeavesTheBoundaryItsVertices) {
+  QuadMesh quads = support::grid(8, 4, [](double, double) { return 0.0; }).quads;
+  quads.mesh.positions[7] = quads.mesh.positions[2];
+  const Index foot = quads.provenance.face[2];
+  EXPECT_EQ(merge_places(quads), 1);
+  EXPECT_EQ(quads.mesh.face_count(), 16);
+  EXPECT_EQ(quads.provenance.face[2], foot);
+  EXPECT_TRUE(analyse(quads.mesh).is_oriented_manifold());
+  EXPECT_EQ(analyse(quads.mesh).euler, 1);
+  QuadMesh along = support::grid(8, 4, [](double, double) { return 0.0; }).quads;
+  along.mesh.positions[2] = along.mesh.positions[1];
+  EXPECT_EQ(merge_places(along), 0);
+}
+
 /// Two flat triangles with one vertex of four faces: each could go, both would leave it two faces.
 TEST(MergePlaces, LeavesAVertexItsFacesWhereTwoPairsAreBesideIt) {
   QuadMesh quads;
