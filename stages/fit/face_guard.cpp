@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "common/geometry/angles.h"
@@ -16,6 +17,9 @@ namespace {
 constexpr double kSmallAngle = 20 * std::numbers::pi / 180;
 /// Angles that differ by less are equal: rounding.
 constexpr double kSameAngle = 1e-9;
+
+/// Share of a face's longest side, up to which a side has no length.
+constexpr double kNoLength = 1e-9;
 
 /// Pairs that cross, for each face: results that only fold over have less than one.
 constexpr std::size_t kTangledPairs = 8;
@@ -39,12 +43,19 @@ FaceGuard::Form FaceGuard::form(const VertexPlaces& places, Index face) const {
   form.is_concave = is_concave_face(p, corners);
   form.least_angle = std::numbers::pi;
   Vec3 outward = Vec3::Zero();
+  double shortest = std::numeric_limits<double>::infinity();
+  double longest = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vec3 ahead = p[corners[(i + 1) % corners.size()]] - p[corners[i]];
     const Vec3 back = p[corners[(i + corners.size() - 1) % corners.size()]] - p[corners[i]];
     form.least_angle = std::min(form.least_angle, angle_between(ahead, back));
     outward += places.normal(corners[i]);
+    shortest = std::min(shortest, ahead.norm());
+    longest = std::max(longest, ahead.norm());
   }
+  // Beside a side of no length, as where a vertex slides to a corner that has one, angles are those
+  // of rounding.
+  if (shortest <= kNoLength * longest) form.least_angle = 0;
   form.faces_away = newell_normal(p, corners).dot(outward) < 0;
   return form;
 }

@@ -14,7 +14,8 @@ namespace strake::fitting {
 /// Finds the faces that a move has made worse than they may get.
 ///
 /// A face must not become concave, turn away from the surface, or get a smaller least angle than it
-/// had where that is below 20 degrees, and no two faces may begin to cross.
+/// had where that is below 20 degrees, which it is where a side has no length, and no two faces may
+/// begin to cross.
 class FaceGuard {
  public:
   /// Faces that cross at these places may go on crossing.

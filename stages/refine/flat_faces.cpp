@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 #include <set>
 #include <span>
@@ -39,10 +40,24 @@ bool is_flat(const std::vector<Vec3>& positions, std::span<const Index> face) {
   return newell_normal(positions, face).norm() <= kFlatHeight * length * length;
 }
 
+/// Whether two vertices of a face in a row are at the same place.
+bool has_side_of_no_length(const std::vector<Vec3>& positions, std::span<const Index> face) {
+  double shortest = std::numeric_limits<double>::infinity();
+  double longest = 0;
+  for (std::size_t i = 0; i < face.size(); ++i) {
+    const double side = (positions[face[(i + 1) % face.size()]] - positions[face[i]]).norm();
+    shortest = std::min(shortest, side);
+    longest = std::max(longest, side);
+  }
+  return shortest <= kFlatHeight * longest;
+}
+
+/// Faces without area, or with a side of no length.
 Index flat_count(const PolyMesh& mesh) {
   Index count = 0;
   for (Index f = 0; f < mesh.face_count(); ++f) {
-    count += is_flat(mesh.positions, mesh.face(f)) ? 1 : 0;
+    const std::span<const Index> face = mesh.face(f);
+    count += is_flat(mesh.positions, face) || has_side_of_no_length(mesh.positions, face) ? 1 : 0;
   }
   return count;
 }

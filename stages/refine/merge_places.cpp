@@ -36,15 +36,17 @@ class Merging {
     }
   }
 
-  /// [V] the vertex that takes the place of each: itself for most, else an older one, which has
-  /// the lines that it was made from.
+  /// [V] the vertex that takes the place of each: itself for most, else one on the boundary or an
+  /// older one, which has the lines that it was made from.
   std::vector<Index> merged() {
     std::vector<Index> instead(mesh_.positions.size());
     std::iota(instead.begin(), instead.end(), 0);
     for (Index f = 0; f < mesh_.face_count(); ++f) {
       for (const auto& [u, w] : in_one_place(f)) {
         if (!may_merge(u, w)) continue;
-        instead[std::max(u, w)] = std::min(u, w);
+        // One on the boundary has its point there.
+        const Index stays = is_rim_[u] != 0 ? u : is_rim_[w] != 0 ? w : std::min(u, w);
+        instead[u + w - stays] = stays;
         for (const Index v : {u, w}) {
           is_near_[v] = 1;
           for (const Index n : neighbours(v)) is_near_[n] = 1;
@@ -89,10 +91,12 @@ class Merging {
 
   /// The link condition: what both have in common is only what goes with the faces between them.
   [[nodiscard]] bool may_merge(Index u, Index w) const {
-    if (is_rim_[u] != 0 || is_rim_[w] != 0 || is_near_[u] != 0 || is_near_[w] != 0) return false;
+    if (is_near_[u] != 0 || is_near_[w] != 0) return false;
     const std::vector<Index> of_u = neighbours(u);
     const std::vector<Index> of_w = neighbours(w);
     const bool are_joined = std::ranges::binary_search(of_u, w);
+    const int rims = is_rim_[u] + is_rim_[w];
+    if (rims > (are_joined ? 1 : 0)) return false;
     std::vector<Index> in_common;
     std::ranges::set_intersection(of_u, of_w, std::back_inserter(in_common));
     std::vector<Index> go_between;

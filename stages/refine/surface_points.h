@@ -40,6 +40,8 @@ class SurfacePoints {
   /// How far the boundary goes away from the straight way between two points of it; 0 where
   /// `BoundaryWays` knows no way.
   [[nodiscard]] double boundary_height(const SurfacePoint& from, const SurfacePoint& to) const;
+  /// The unit normal of the face that a point is of.
+  [[nodiscard]] Vec3 normal(const SurfacePoint& point) const { return normals_[point.face]; }
   /// Whether a point lies on a feature or boundary line.
   [[nodiscard]] bool is_on_line(const SurfacePoint& point) const {
     return !lines_.places(point).empty();

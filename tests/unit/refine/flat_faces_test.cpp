@@ -111,6 +111,33 @@ TEST(MergePlaces, MakesTrianglesOfQuadsWithASideOfNoLength) {
   EXPECT_EQ(analyse(quads.mesh).euler, 1);
 }
 
+/// Two vertices of an edge at the same place are merged also where all faces have an area.
+TEST(FlatFaces, SidesOfNoLengthGo) {
+  const support::Case c = support::grid(8, 4, [](double, double) { return 0.0; });
+  ToleranceProof proof(std::make_shared<const InputSurface>(c.mesh), 1e-3);
+  QuadMesh quads = c.quads;
+  quads.mesh.positions[12] = quads.mesh.positions[13];
+  mend_flat_faces_within(proof, quads);
+  EXPECT_EQ(quads.mesh.vertex_count(), 24);
+  EXPECT_EQ(quads.mesh.face_count(), 16);
+  EXPECT_TRUE(analyse(quads.mesh).is_oriented_manifold());
+}
+
+/// An edge from the boundary inwards goes to the boundary; one along it stays.
+TEST(MergePlaces, LeavesTheBoundaryItsVertices) {
+  QuadMesh quads = support::grid(8, 4, [](double, double) { return 0.0; }).quads;
+  quads.mesh.positions[7] = quads.mesh.positions[2];
+  const Index foot = quads.provenance.face[2];
+  EXPECT_EQ(merge_places(quads), 1);
+  EXPECT_EQ(quads.mesh.face_count(), 16);
+  EXPECT_EQ(quads.provenance.face[2], foot);
+  EXPECT_TRUE(analyse(quads.mesh).is_oriented_manifold());
+  EXPECT_EQ(analyse(quads.mesh).euler, 1);
+  QuadMesh along = support::grid(8, 4, [](double, double) { return 0.0; }).quads;
+  along.mesh.positions[2] = along.mesh.positions[1];
+  EXPECT_EQ(merge_places(along), 0);
+}
+
 /// Two flat triangles with one vertex of four faces: each could go, both would leave it two faces.
 TEST(MergePlaces, LeavesAVertexItsFacesWhereTwoPairsAreBesideIt) {
   QuadMesh quads;

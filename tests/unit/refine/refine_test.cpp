@@ -558,6 +558,39 @@ TEST(Refine, DividesOnlyAtAJaggedBoundary) {
   EXPECT_EQ(inside, cells * (cells - 1));
 }
 
+/// What lies across a notch, turned over, is no part of the surface: it goes, and no vertex is put
+/// where the boundary has one.
+TEST(Refine, DropsCellsAcrossNotches) {
+  Case c = toothed_sheet(8, 1, 0.1);
+  std::ranges::fill(c.mesh.is_corner, 1);
+  // The cell reaches to the tips of the outermost teeth; another one lies across the notches
+  // between, with a vertex in the middle one.
+  const auto add = [&](const SurfacePoint& point) {
+    c.quads.mesh.positions.push_back(place_of(c.mesh, point) + c.mesh.origin);
+    c.quads.provenance.face.push_back(point.face);
+    c.quads.provenance.barycentric.push_back(point.barycentric);
+    c.quads.provenance.lines.push_back({kNone, kNone});
+    return c.quads.mesh.vertex_count() - 1;
+  };
+  const Index first_tooth = 2 * 8 * 8;
+  const Index right = add({first_tooth + 7, {0, 1, 0}});
+  const Index left = add({first_tooth, {0, 1, 0}});
+  const Index valley = add({first_tooth + 3, {1, 0, 0}});
+  c.quads.mesh.corners.clear();
+  c.quads.mesh.offsets = {0};
+  c.quads.mesh.add_face(std::array<Index, 6>{0, 1, 3, right, left, 2});
+  c.quads.mesh.add_face(std::array<Index, 3>{left, right, valley});
+  const QuadMesh result = refined(c, within(0.02));
+  EXPECT_EQ(result.mesh.vertex_count(), 4 + 8 + 7);
+  const auto& p = result.mesh.positions;
+  for (Index v = 0; v < result.mesh.vertex_count(); ++v) {
+    for (Index w = 0; w < v; ++w) EXPECT_GT((p[v] - p[w]).norm(), 0.01);
+  }
+  for (Index f = 0; f < result.mesh.face_count(); ++f) {
+    EXPECT_GT(newell_normal(p, result.mesh.face(f)).z(), 1e-3);
+  }
+}
+
 /// A cell may lie along any number of teeth.
 TEST(Refine, ReachesAllTeethAlongACell) {
   Case c = toothed_sheet(64, 2, 0.016);

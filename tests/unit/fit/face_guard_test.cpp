@@ -1,0 +1,42 @@
+#include "stages/fit/face_guard.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "common/geometry/surface_distance/surface_distance.h"
+#include "tests/support/mesh_support.h"
+
+namespace strake {
+namespace {
+
+/// A vertex that slides to the corner where its line ends, and where another one is up to rounding,
+/// leaves angles of any size.
+TEST(FaceGuard, SidesKeepALength) {
+  PolyMesh square;
+  square.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)};
+  square.add_face(std::array<Index, 3>{0, 1, 2});
+  square.add_face(std::array<Index, 3>{0, 2, 3});
+  TriMesh mesh = support::plain_tri_mesh(square);
+  mesh.is_corner.assign(4, 1);
+  QuadMesh quads;
+  quads.mesh.positions = {Vec3(0.4, 0, 0), Vec3(1, 1e-17, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)};
+  quads.mesh.add_face(std::array<Index, 4>{0, 1, 2, 3});
+  quads.provenance.face = {0, 0, 0, 1};
+  quads.provenance.barycentric = {{0.6, 0.4, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 1}};
+  const SurfaceDistance surface(mesh.positions, mesh.faces);
+  fitting::VertexPlaces places(mesh, surface, quads);
+  fitting::FaceGuard guard(quads.mesh, places);
+  guard.set_start(places);
+  places.move(0, Vec3(0.3, 0, 0));
+  EXPECT_FALSE(guard.is_spoilt(places, 0));
+  places.move(0, Vec3(10, 0, 0));
+  ASSERT_EQ(places.positions()[0], mesh.positions[1]);
+  EXPECT_TRUE(guard.is_spoilt(places, 0));
+  // Where that was so from the start it may stay.
+  guard.set_start(places);
+  EXPECT_FALSE(guard.is_spoilt(places, 0));
+}
+
+}  // namespace
+}  // namespace strake
