@@ -18,9 +18,7 @@
 #include "common/geometry/cell_error/cell_error.h"
 #include "common/geometry/cell_error/tolerance_check.h"
 #include "common/geometry/face_crossings/face_crossings.h"
-#include "common/geometry/flat_triangle.h"
 #include "common/geometry/nearest_on_surface.h"
-#include "common/geometry/patch_fill/drop_unused_vertices.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_edges.h"
 #include "common/geometry/poly_topology/poly_topology.h"
@@ -30,6 +28,7 @@
 #include "stages/refine/inlays.h"
 #include "stages/refine/split_cells.h"
 #include "stages/refine/surface_points.h"
+#include "stages/refine/turned_ears.h"
 
 namespace strake {
 namespace {
@@ -89,12 +88,9 @@ class Refinement {
     }
   }
 
-  /// Takes cells away that lie across notches of the boundary: turned over, or without area, and
-  /// joined to others by one edge only. That edge stands for the notch then. Dividing the cell
-  /// instead would put vertices over and over where the boundary is.
   void drop_turned_ears() {
-    while (drop_some_turned_ears()) {
-    }
+    quads_.mesh.attributes = {};  // carried over anew at the end
+    strake::drop_turned_ears(points_, quads_);
   }
 
   /// Moves the vertex nearest on the surface to each of these places of the input there, so that
@@ -118,7 +114,6 @@ class Refinement {
 
   /// Changes what may be better in a result that is within the tolerance.
   void finish(ToleranceProof& proof) {
-    quads_.mesh.attributes = {};  // carried over anew at the end
     refill_within(proof, quads_);
     mend_flat_faces_within(proof, quads_);  // what has no area crosses nothing, and hides what does
     inlay_crossing(proof, crossing_, proof.tolerance(), quads_);
@@ -169,51 +164,6 @@ class Refinement {
     quads_.provenance.barycentric.push_back(point.barycentric);
     quads_.provenance.lines.push_back({kNone, kNone});
     return static_cast<Index>(positions_.size()) - 1;
-  }
-
-  bool drop_some_turned_ears() {
-    const PolyMesh& mesh = quads_.mesh;
-    const PolyEdges edges = collect_edges(mesh);
-    std::vector<Index> inner_sides(static_cast<std::size_t>(mesh.face_count()), 0);
-    std::vector<Index> beyond(inner_sides.size(), kNone);
-    for (Index e = 0; e < edges.edge_count(); ++e) {
-      const std::span<const Index> sides = edges.sides_of(e);
-      if (sides.size() != 2) continue;
-      const Index f = edges.corner_face[sides[0]];
-      const Index g = edges.corner_face[sides[1]];
-      ++inner_sides[f];
-      ++inner_sides[g];
-      beyond[f] = g;
-      beyond[g] = f;
-    }
-    PolyMesh kept;
-    std::vector<char> stays(inner_sides.size(), 0);  // 1: beside one that goes
-    for (Index f = 0; f < mesh.face_count(); ++f) {
-      if (inner_sides[f] == 1 && stays[f] == 0 && is_turned_over(mesh.face(f))) {
-        stays[beyond[f]] = 1;
-      } else {
-        kept.add_face(mesh.face(f));
-      }
-    }
-    if (kept.face_count() == mesh.face_count()) return false;
-    quads_.mesh.corners = std::move(kept.corners);
-    quads_.mesh.offsets = std::move(kept.offsets);
-    drop_unused_vertices(quads_);
-    return true;
-  }
-
-  /// Whether a face is turned against the surface under its corners, or has no area.
-  [[nodiscard]] bool is_turned_over(std::span<const Index> face) const {
-    Vec3 normal = Vec3::Zero();
-    double longest = 0;
-    for (std::size_t i = 0; i < face.size(); ++i) {
-      normal += points_.normal(foot_of(face[i]));
-      const Vec3 side =
-          quads_.mesh.positions[face[(i + 1) % face.size()]] - quads_.mesh.positions[face[i]];
-      longest = std::max(longest, side.norm());
-    }
-    const Vec3 own = newell_normal(quads_.mesh.positions, face);
-    return own.dot(normal) < 0 || own.norm() <= kFlatHeight * longest * longest;
   }
 
   void find_boundary() {
