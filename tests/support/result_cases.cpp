@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <array>
 
+#include "common/geometry/poly_topology/face_shape.h"
+
 namespace strake::support {
 
 Case sheets(Index n, Index cells, const std::vector<Height>& heights) {
@@ -111,6 +113,20 @@ PolyMesh undecided_pentagon() {
     (turn > 0 ? convex : reflex) = middle;
   }
   return pentagon(convex);
+}
+
+std::multiset<std::size_t> sides(const PolyMesh& mesh) {
+  std::multiset<std::size_t> result;
+  for (Index f = 0; f < mesh.face_count(); ++f) result.insert(mesh.face(f).size());
+  return result;
+}
+
+double total_area(const PolyMesh& mesh) {
+  double sum = 0;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    sum += newell_normal(mesh.positions, mesh.face(f)).z() / 2;
+  }
+  return sum;
 }
 
 }  // namespace strake::support

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <set>
 #include <vector>
 
 #include "common/core/poly_mesh.h"
@@ -43,5 +45,10 @@ Case on_triangles(const PolyMesh& faces, const FaceTriangles& cut);
 /// A pentagon that rounding alone decides how to cut: a corner of it lies, seen along its normal,
 /// on the straight way between two others, but 0.6 off it.
 PolyMesh undecided_pentagon();
+
+/// Of all faces, their numbers of corners.
+std::multiset<std::size_t> sides(const PolyMesh& mesh);
+/// Of a flat result, seen from above.
+double total_area(const PolyMesh& mesh);
 
 }  // namespace strake::support
