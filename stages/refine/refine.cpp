@@ -24,6 +24,7 @@
 #include "common/geometry/poly_topology/poly_topology.h"
 #include "stages/refine/cells_beyond.h"
 #include "stages/refine/changes_within.h"
+#include "stages/refine/edges_across_bend.h"
 #include "stages/refine/flat_faces.h"
 #include "stages/refine/inlays.h"
 #include "stages/refine/split_cells.h"
@@ -37,8 +38,6 @@ namespace {
 constexpr double kMargin = 1e-3;
 constexpr const char* kFinishing = "finishing cells";
 constexpr std::int64_t kMostSides = 5;
-/// Heights below this share of what a cell is off by do not explain it.
-constexpr double kExplains = 0.25;
 constexpr std::size_t kNamedPlaces = 5;
 /// Where edges are measured.
 constexpr std::array<double, 3> kPlacesOnEdge = {0.25, 0.5, 0.75};
@@ -241,55 +240,9 @@ class Refinement {
       if (at(i) || (n == 4 && at(i + 2))) beyond.push_back(i);
     }
     if (!beyond.empty()) return beyond;
-    return edges_across_bend(surfaces, target);
-  }
-
-  /// The edges of a cell of four corners or more that lie along the direction in which it is bent.
-  [[nodiscard]] std::vector<std::size_t> edges_across_bend(const ComparedSurfaces& surfaces,
-                                                           const Target& target) const {
-    const std::span<const Index> face = quads_.mesh.face(target.face);
-    const std::size_t n = face.size();
-    const auto side = [&](std::size_t i) {
-      return Vec3(positions_[face[(i + 1) % n]] - positions_[face[i % n]]);
-    };
-    const Mat3 bend = cell_bend(surfaces, target.face);
-    // Whether to cut across direction a rather than across direction b.
-    const auto across_first = [&](const Vec3& a, const Vec3& b) {
-      const double height_a = std::abs(a.dot(bend * a)) / 4;
-      const double height_b = std::abs(b.dot(bend * b)) / 4;
-      if (std::max(height_a, height_b) < kExplains * target.distance) {
-        return a.squaredNorm() >= b.squaredNorm();
-      }
-      return height_a >= height_b;
-    };
-    if (n == 4) {
-      const Vec3 a = (side(0) - side(2)) / 2;
-      const Vec3 b = (side(1) - side(3)) / 2;
-      return across_first(a, b) ? std::vector<std::size_t>{0, 2} : std::vector<std::size_t>{1, 3};
-    }
-    if (n > 5) return {0, n / 2};
-    const std::size_t t = straightest_corner(face);
-    const Vec3 opposite = side(t + 2);
-    const Vec3 beside = (side(t + 1) - side(t + 3)) / 2;
-    if (across_first(opposite, beside)) return {(t + 2) % n};
-    return {(t + 1) % n, (t + 3) % n};
-  }
-
-  /// The corner of a face that turns least: of a pentagon the one at which a line ends.
-  [[nodiscard]] std::size_t straightest_corner(std::span<const Index> face) const {
-    const std::size_t n = face.size();
-    std::size_t best = 0;
-    double least = 2;
-    for (std::size_t i = 0; i < n; ++i) {
-      const Vec3& p = positions_[face[i]];
-      const Vec3 ahead = positions_[face[(i + 1) % n]] - p;
-      const Vec3 back = positions_[face[(i + n - 1) % n]] - p;
-      const double cosine = ahead.normalized().dot(back.normalized());
-      if (cosine >= least) continue;
-      least = cosine;
-      best = i;
-    }
-    return best;
+    std::vector<Vec3> corners;
+    for (const Index v : face) corners.push_back(positions_[v]);
+    return edges_across_bend(corners, cell_bend(surfaces, target.face), target.distance);
   }
 
   const TriMesh& mesh_;

@@ -9,6 +9,7 @@
 
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_topology.h"
+#include "tests/support/result_cases.h"
 
 namespace strake {
 namespace {
@@ -46,14 +47,6 @@ PolyMesh redivided(const PolyMesh& mesh, std::size_t expected_changes) {
   return result;
 }
 
-double area(const PolyMesh& mesh) {
-  double sum = 0;
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    sum += newell_normal(mesh.positions, mesh.face(f)).z() / 2;
-  }
-  return sum;
-}
-
 Index odd_faces(const PolyMesh& mesh) {
   Index count = 0;
   for (Index f = 0; f < mesh.face_count(); ++f) count += mesh.face(f).size() % 2 != 0 ? 1 : 0;
@@ -84,7 +77,7 @@ TEST(RedivideFaces, ATriangleAndAPentagonBecomeTwoQuads) {
   const PolyMesh result = redivided(mesh, 1);
   EXPECT_EQ(result.face_count(), 2);
   EXPECT_EQ(odd_faces(result), 0);
-  EXPECT_NEAR(area(result), 2, 1e-12);
+  EXPECT_NEAR(support::total_area(result), 2, 1e-12);
 }
 
 TEST(RedivideFaces, LeavesWhatItMayNotChange) {
@@ -151,7 +144,7 @@ TEST(RedivideFaces, KeepsTheSurfaceAndItsTopology) {
   const PolyTopology topology = analyse(result);
   EXPECT_TRUE(topology.is_oriented_manifold());
   EXPECT_EQ(topology.euler, analyse(mesh).euler);
-  EXPECT_NEAR(area(result), n * n, 1e-9);
+  EXPECT_NEAR(support::total_area(result), n * n, 1e-9);
   for (Index f = 0; f < result.face_count(); ++f) {
     EXPECT_GT(newell_normal(result.positions, result.face(f)).z(), 0);
     if (change_of_face[f] == kNone) continue;
