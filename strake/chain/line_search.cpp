@@ -35,9 +35,11 @@ constexpr int kMostDensitySearches = 3;
 constexpr double kDensityMet = 0.67;
 /// Share of a count up to which strips of quads make up for what lines give too little or too much:
 /// in the first trials, later, and where no scale of distances comes nearer. Lines at the right
-/// distances are better, where they come at once.
+/// distances are better where there are few of them, and they come at once; large results only wait
+/// for them.
 constexpr double kWithinFewStrips = 0.035;
 constexpr std::size_t kTrialsOfLines = 2;
+constexpr std::int64_t kManyWanted = 1000;
 constexpr double kWithinStrips = 0.08;
 constexpr double kWithinStripsAtLast = 0.5;
 
@@ -155,7 +157,8 @@ bool search_scale(Session& session, const GoalStages& stages, const LineAim& aim
     std::int64_t count = count_of(session, "quads", aim.counted);
     session.say(fmt::format("{} {} so far, {} wanted", count, name_of(aim.counted), aim.wanted));
     search.record(*scale, count);
-    const double within = search.trial_count() > kTrialsOfLines ? kWithinStrips : kWithinFewStrips;
+    const bool are_enough = search.trial_count() > kTrialsOfLines || aim.wanted >= kManyWanted;
+    const double within = are_enough ? kWithinStrips : kWithinFewStrips;
     const bool has_strips =
         with_strips && !search.is_good_enough(count) && search.error(count) <= within;
     if (has_strips) count = use_strips();
