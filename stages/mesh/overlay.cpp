@@ -228,12 +228,13 @@ void merge_cells(Overlay& overlay) {
   for (const Index d : removable) graph.remove_edge(d);
 }
 
-/// Removes edges that end in nodes of degree one, again and again ([MK04] section 5).
+/// Removes edges that end in nodes of degree one, again and again ([MK04] section 5), but features.
 void prune(Overlay& overlay) {
   DartGraph& graph = overlay.graph;
   for (Index start = 0; start < graph.dart_count(); ++start) {
     Index d = start;
-    while (graph.is_alive(d) && graph.next(d) == DartGraph::opposite(d)) {
+    while (graph.is_alive(d) && graph.next(d) == DartGraph::opposite(d) &&
+           overlay.kind[DartGraph::edge_of(d)] != EdgeKind::feature) {
       const Index before = graph.prev(d);
       graph.remove_edge(d);
       if (before == DartGraph::opposite(d)) break;

@@ -70,7 +70,8 @@ struct Overlay {
 /// \throw PreconditionError where a chord does not join two sides of its face
 Overlay build_overlay(const TriMesh& mesh, const LineSet& lines, Observer& observer);
 
-/// Reduces an overlay to the lines, features and boundaries, without dangling ends.
+/// Reduces an overlay to the lines, features and boundaries, without dangling ends but those of
+/// features.
 ///
 /// Surface edges are removed as long as that merges two different cells, so all cells stay disks;
 /// what must stay to keep them so are cut lines. \return the number of cut edges left

@@ -18,6 +18,8 @@ constexpr double kLargestSagitta = 0.06;
 constexpr double kMostBent = 0.32;
 /// A face may not turn by more than this when one of its nodes moves.
 constexpr double kLeastTurnCosine = 0.3;
+/// Free ends of features are near the last crossing within this share of the way to the one before.
+constexpr double kNearFreeEnd = 0.7;
 /// Corners of the feature graph are only merged below this share of the wanted edge length.
 constexpr double kShortestCornerEdge = 0.1;
 
@@ -137,6 +139,33 @@ bool puts_cells_back_to_back(const PolygonGraph& graph, Index dart) {
     } while ((d = g.rotate_ccw(d)) != start);
   }
   return false;
+}
+
+/// Brings the last crossing of a feature that ends freely to its end, where that is near; what ends
+/// farther away goes, as in [MK04] section 5, up to the last crossing.
+void settle_free_ends(PolygonGraph& graph, SimplifyCounts& counts) {
+  const DartGraph& g = graph.graph();
+  const auto is_near = [&](Index dart) {
+    if (!graph.is_barrier(dart) || graph.rank(g.from(dart)) != NodeRank::barrier) return false;
+    for (Index d = g.rotate_ccw(dart); d != dart; d = g.rotate_ccw(d)) {
+      if (graph.is_barrier(d)) return graph.length(dart) < kNearFreeEnd * graph.length(d);
+    }
+    return false;
+  };
+  for (Index start = 0; start < g.dart_count(); ++start) {
+    Index d = start;
+    while (g.is_alive(d) && g.next(d) == DartGraph::opposite(d)) {
+      const Index before = g.prev(d);
+      if (is_near(d) && can_contract(graph, d)) {
+        graph.contract(d);
+        ++counts.contracted_edges;
+        break;
+      }
+      graph.remove_edge(d);
+      if (before == DartGraph::opposite(d)) break;
+      d = before;
+    }
+  }
 }
 
 /// Removes the bigons beside an edge that is about to vanish or has vanished.
@@ -299,6 +328,7 @@ bool can_contract(const PolygonGraph& graph, Index dart) {
 SimplifyCounts simplify(PolygonGraph& graph, const LocalSize& size, const SimplifyLimits& limits) {
   SimplifyCounts counts;
   const DartGraph& g = graph.graph();
+  settle_free_ends(graph, counts);
   for (Index d = 0; d < g.dart_count(); ++d) clean_up(graph, {d}, counts);
   for (int pass = 0; pass < 3; ++pass) {
     const Index before = counts.contracted_edges;

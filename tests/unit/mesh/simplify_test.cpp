@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "common/core/poly_mesh.h"
 #include "tests/support/mesh_support.h"
 #include "tests/unit/mesh/graphs.h"
+#include "tests/unit/mesh/grid_cells.h"
 
 namespace strake {
 namespace {
@@ -93,6 +95,41 @@ TEST(Simplify, KeepsTheTopologyWhateverIsTooShort) {
       }
     }
   }
+}
+
+/// Where the barrier nodes inside a strip are that a feature enters from the left, and that lines
+/// cross at 2 and 4. \param end  of the feature, beyond 4
+std::set<double> nodes_on_feature(double end) {
+  const Grid grid{{0, 1, 2, 3, 4, end, 8, 9}, steps(5)};
+  TriMesh mesh = grid_mesh(grid);
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const Vec3 p = mesh.positions[v] + mesh.origin;
+    if (p.x() == end && p.y() == 2) mesh.is_corner[v] = 1;
+  }
+  PolygonGraph graph = cells_of(
+      mesh,
+      [](const Vec3& a, const Vec3& b) { return a.x() == b.x() && (a.x() == 2 || a.x() == 4); },
+      [&](const Vec3& a, const Vec3& b) {
+        return a.y() == 2 && b.y() == 2 && std::max(a.x(), b.x()) <= end;
+      });
+  simplify(graph, [](const SurfaceNode&) { return 2.0; }, {.shortest = 0.3});
+  EXPECT_TRUE(is_consistent(graph.graph()));
+  EXPECT_EQ(count(graph.graph()).loose_ends, 0);
+  std::set<double> found;
+  const DartGraph& g = graph.graph();
+  for (Index d = 0; d < g.dart_count(); ++d) {
+    if (!g.is_alive(d)) continue;
+    const Vec3 p = graph.position(g.from(d)) + mesh.origin;
+    if (p.y() == 2 && p.x() > 0 && p.x() < 8) found.insert(p.x());
+  }
+  return found;
+}
+
+// A crease that fades out inside a cell has its end in the result, where a line is near.
+TEST(Simplify, BringsTheLastCrossingOfAFeatureToItsEnd) {
+  EXPECT_EQ(nodes_on_feature(5), (std::set<double>{2, 5}));
+  EXPECT_EQ(nodes_on_feature(5.25), (std::set<double>{2, 5.25}));
+  EXPECT_EQ(nodes_on_feature(7), (std::set<double>{2, 4})) << "too far away";
 }
 
 }  // namespace
