@@ -10,11 +10,11 @@
 namespace strake {
 namespace {
 
-constexpr int kMaxClosingFaces = 2000;  ///< hard bound on the way to the own start
+constexpr int kMaxClosingFaces = 2000;  ///< hard bound on the way to the own start or a corner
 constexpr double kCloseRange = 1.5;     ///< line distances from which a line looks for its start
 
-/// A straight way from a head to the start of its line.
-struct WayHome {
+/// A straight way from a head to the start of its line, or to a corner.
+struct StraightWay {
   std::size_t kept = 0;  ///< points of the line that stay; the way may turn back at once
   std::vector<Chord> chords;
 };
@@ -56,22 +56,27 @@ bool heads_for(const TraceDomain& domain, const LineHead& head, const HalfLine& 
          heading.dot(way) >= least_cosine * distance;
 }
 
-std::optional<WayHome> way_home(const TraceDomain& domain, const LineHead& head,
-                                const HalfLine& half, const Target& target) {
+/// \param target  position to go to
+/// \param fewest  points of the line that must stay
+/// \param arrives  (face, last point): whether the way ends in that face
+template <class Arrives>
+std::optional<StraightWay> straight_way(const TraceDomain& domain, const LineHead& head,
+                                        const HalfLine& half, const Vec3& target,
+                                        std::size_t fewest, const Arrives& arrives) {
   const TriMesh& mesh = domain.mesh;
-  WayHome way;
+  StraightWay way;
   way.kept = half.points.size();
   FieldContext context = head.context;
   Vec2 point = head.point;
   std::array<Index, 2> closed = head.closed;
   for (int guard = 0; guard < kMaxClosingFaces; ++guard) {
     const Index face = context.chart.face;
-    const LinePoint last = way.chords.empty() ? half.points[way.kept - 1] : way.chords.back().to;
-    if (face == target.face && is_proper_chord(mesh, face, last, half.points[target.end])) {
-      return way;
-    }
+    const LinePoint last = !way.chords.empty() ? way.chords.back().to
+                           : way.kept > 0      ? half.points[way.kept - 1]
+                                               : half.origin;
+    if (arrives(face, last)) return way;
     const Vec2 flat =
-        chart_direction(domain, context, target.position - world_point(domain, context, point));
+        chart_direction(domain, context, target - world_point(domain, context, point));
     const auto exit = find_exit(context.chart, point, flat, closed);
     if (!exit || mesh.is_barrier(exit->halfedge)) return std::nullopt;
     const LinePoint crossing{exit->halfedge,
@@ -82,14 +87,37 @@ std::optional<WayHome> way_home(const TraceDomain& domain, const LineHead& head,
       // The chord from a vertex starts in the next face around it.
     } else if (!way.chords.empty()) {
       way.chords.pop_back();
-    } else if (--way.kept <= target.end + 1) {
+    } else if (way.kept <= fewest) {
       return std::nullopt;
+    } else {
+      --way.kept;
     }
     point += exit->step * flat;
     context = unfold_context(domain, context, exit->halfedge);
     closed = {mesh.twin[exit->halfedge], kNone};
   }
   return std::nullopt;
+}
+
+std::optional<StraightWay> way_home(const TraceDomain& domain, const LineHead& head,
+                                    const HalfLine& half, const Target& target) {
+  return straight_way(domain, head, half, target.position, target.end + 2,
+                      [&](Index face, const LinePoint& last) {
+                        return face == target.face &&
+                               is_proper_chord(domain.mesh, face, last, half.points[target.end]);
+                      });
+}
+
+/// Takes back what does not stay, and goes the way. \return the head at its end
+LineHead go(const TraceDomain& domain, LineWalker& walker, const LineHead& head,
+            const StraightWay& way, HalfLine& half) {
+  LineHead end = head;
+  walker.take_back(end, half.points.size() - way.kept, half);
+  for (const Chord& chord : way.chords) {
+    end.arc += (line_point_position(domain.mesh, chord.to) - end.last_position).norm();
+    walker.record(end, chord, half);
+  }
+  return end;
 }
 
 }  // namespace
@@ -104,7 +132,7 @@ bool close_line(const TraceDomain& domain, ProximityProbe& proximity, LineWalker
   const double reach = kCloseRange * distance;
   const Index face = head.context.chart.face;
   const Vec3 point = world_point(domain, head.context, head.point);
-  std::optional<WayHome> way;
+  std::optional<StraightWay> way;
   std::size_t joined = 0;
   for (; joined + 2 < half.points.size(); ++joined) {
     const Target target = target_chord(domain, half, joined);
@@ -118,12 +146,7 @@ bool close_line(const TraceDomain& domain, ProximityProbe& proximity, LineWalker
     if (way) break;
   }
   if (!way) return false;
-  LineHead end = head;
-  walker.take_back(end, half.points.size() - way->kept, half);
-  for (const Chord& chord : way->chords) {
-    end.arc += (line_point_position(domain.mesh, chord.to) - end.last_position).norm();
-    walker.record(end, chord, half);
-  }
+  go(domain, walker, head, *way, half);
   // Their segments stay in the proximity index, where they stand for the last chord.
   const auto drop = [&](auto& values) {
     values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(joined));
@@ -133,6 +156,31 @@ bool close_line(const TraceDomain& domain, ProximityProbe& proximity, LineWalker
   drop(half.families);
   drop(half.arcs);
   half.end = LineEnd::closed;
+  return true;
+}
+
+bool end_at_corner(const TraceDomain& domain, LineWalker& walker, const LineHead& head,
+                   Index corner, HalfLine& half) {
+  const TriMesh& mesh = domain.mesh;
+  if (half.points.empty() && half.origin.halfedge == kNone) return false;
+  Chord last;
+  last.to.lambda = 0;
+  const auto arrives = [&](Index face, const LinePoint& from) {
+    last.face = face;
+    for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+      last.to.halfedge = h;
+      if (mesh.from(h) == corner) return is_proper_chord(mesh, face, from, last.to);
+    }
+    return false;
+  };
+  const Vec3& target = mesh.positions[corner];
+  std::optional<StraightWay> way = straight_way(
+      domain, head, half, target, std::min<std::size_t>(1, half.points.size()), arrives);
+  if (!way) return false;
+  last.direction = target - world_point(domain, head.context, head.point);
+  way->chords.push_back(last);
+  go(domain, walker, head, *way, half);
+  half.end = mesh.is_boundary(mesh.vertex_out[corner]) ? LineEnd::boundary : LineEnd::feature;
   return true;
 }
 

@@ -20,4 +20,10 @@ bool can_close(const LineHead& head, const LocalSpacing& spacing);
 bool close_line(const TraceDomain& domain, ProximityProbe& proximity, LineWalker& walker,
                 const LineHead& head, double least_cosine, HalfLine& half);
 
+/// Ends a line at a corner of feature or boundary lines that it heads for: goes straight to it.
+/// \param corner  a vertex
+/// \return false, and nothing changes, where no chords lead there
+bool end_at_corner(const TraceDomain& domain, LineWalker& walker, const LineHead& head,
+                   Index corner, HalfLine& half);
+
 }  // namespace strake

@@ -11,10 +11,12 @@
 namespace strake {
 namespace {
 
-constexpr double kStepShare = 0.25;      ///< integration step as a share of the line distance
-constexpr double kCoverStep = 0.4;       ///< line distances between discs that a line covers
-constexpr double kOwnSkip = 2.0;         ///< stop distances along itself that a line does not see
-constexpr double kWayOut = 1.2;          ///< stop distances at which a line is out of narrows
+constexpr double kStepShare = 0.25;    ///< integration step as a share of the line distance
+constexpr double kCoverStep = 0.4;     ///< line distances between discs that a line covers
+constexpr double kOwnSkip = 2.0;       ///< stop distances along itself that a line does not see
+constexpr double kWayOut = 1.2;        ///< stop distances at which a line is out of narrows
+constexpr double kTurnedRound = -0.5;  ///< cosine to its first direction of a line on its way round
+const double kCornerCosine = std::cos(25 * M_PI / 180);  ///< largest angle to a corner ahead
 constexpr double kLongestNarrows = 30;   ///< line distances that a line may run in narrows
 constexpr int kMaxSteps = 200000;        ///< hard bound on one half line
 constexpr std::size_t kStepsPerGap = 4;  ///< between places where a finished line is judged
@@ -34,7 +36,10 @@ bool join(const TriMesh& mesh, const HalfLine& forward, const HalfLine& backward
     append(backward.points[i], backward.faces[i], backward.families[i]);
   }
   result.seed_point = static_cast<Index>(result.points.size());
-  if (seed.is_anchored()) append(seed.anchor, forward.seed_face, result.family);
+  if (seed.is_anchored()) {
+    const Index face = forward.faces.empty() ? forward.seed_face : forward.faces.front();
+    append(seed.anchor, face, result.family);
+  }
   for (std::size_t i = 0; i < forward.points.size(); ++i) {
     const bool last = i + 1 == forward.points.size();
     append(forward.points[i], last ? kNone : forward.faces[i + 1],
@@ -67,8 +72,8 @@ LineTracer::LineTracer(const TraceDomain& domain, const std::vector<std::uint8_t
       proximity_(finished.proximity()),
       walker_(domain, barriers, proximity_) {}
 
-ProximityHit LineTracer::look_around(const LineHead& head, double fraction,
-                                     const LocalSpacing& spacing) {
+ProximityQuery LineTracer::query_at(const LineHead& head, double fraction,
+                                    const LocalSpacing& spacing) const {
   ProximityQuery query;
   query.face = head.context.chart.face;
   query.point = world_point(domain_, head.context, head.point);
@@ -79,7 +84,12 @@ ProximityHit LineTracer::look_around(const LineHead& head, double fraction,
   query.own_arc = head.sign * head.arc;
   query.own_skip = kOwnSkip * query.distance;
   query.ignore_barriers = head.from_corner && head.arc < query.own_skip;
-  return proximity_.query(query);
+  return query;
+}
+
+ProximityHit LineTracer::look_around(const LineHead& head, double fraction,
+                                     const LocalSpacing& spacing) {
+  return proximity_.query(query_at(head, fraction, spacing));
 }
 
 /// Whether a line can start here without coming too close to one of its direction.
@@ -114,23 +124,41 @@ void LineTracer::turn_back(const Narrows& narrows, LineHead& head, HalfLine& hal
   half.end = LineEnd::proximity;
 }
 
+/// Ends a half line at a corner of features or boundaries straight ahead that no other line comes
+/// between: what follows there is alike and would stop it just before.
+bool LineTracer::meets_corner(const LineHead& head, ProximityQuery query, HalfLine& half) {
+  const Index corner = proximity_.corner_ahead(query, kCornerCosine);
+  if (corner == kNone) return false;
+  query.distance = (domain_.mesh.positions[corner] - query.point).norm();
+  query.ignore_barriers = true;
+  return !proximity_.query(query).conflict && end_at_corner(domain_, walker_, head, corner, half);
+}
+
 void LineTracer::trace_half(LineHead head, bool may_close, double stop_fraction, HalfLine& half) {
   half.end = LineEnd::step_limit;
   LineProgress progress(head);
   std::optional<Narrows> narrows;
+  bool is_away = false;  // on its way round: around a thin tube, to where its start is soon
   double next_disc = head.arc;
   const auto closes = [&](double least_cosine) {
     return may_close && close_line(domain_, proximity_, walker_, head, least_cosine, half);
   };
   for (int step = 0; step < kMaxSteps; ++step) {
     const LocalSpacing spacing = spacing_at(domain_, head);
-    const ProximityHit hit = look_around(head, stop_fraction, spacing);
-    const bool is_away = can_close(head, spacing);
-    if (is_away && closes(kCloseCosine)) return;
+    const ProximityQuery query = query_at(head, stop_fraction, spacing);
+    const ProximityHit hit = proximity_.query(query);
+    const bool is_at_barrier = hit.conflict ? hit.line == kNone : query.ignore_barriers;
+    if (is_at_barrier && head.arc > 0 && meets_corner(head, query, half)) return;
+    is_away = is_away || query.direction.dot(half.seed_direction) < kTurnedRound;
+    const bool may_be_back = is_away || can_close(head, spacing);
+    if (may_be_back && closes(kCloseCosine)) return;
     if (hit.conflict && head.arc > 0) {
-      if ((is_away || hit.line == kOwnLine) && closes(kCloseCosineLast)) return;
+      if ((may_be_back || hit.line == kOwnLine) && closes(kCloseCosineLast)) return;
       if (!narrows) narrows = {head.arc, half.points.size(), half.crossings.all().size(), hit.line};
-      if (!may_go_on(head, hit, spacing, narrows->arc)) {
+      const bool comes_home =
+          may_close && is_away && hit.line == kOwnLine &&
+          query.direction.dot(half.seed_position - query.point) > 0;  // not past its start
+      if (!comes_home && !may_go_on(head, hit, spacing, narrows->arc)) {
         turn_back(*narrows, head, half);
         return;
       }

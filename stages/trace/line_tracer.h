@@ -78,11 +78,14 @@ class LineTracer {
   };
 
   bool fits(const LineHead& head, double fraction);
+  [[nodiscard]] ProximityQuery query_at(const LineHead& head, double fraction,
+                                        const LocalSpacing& spacing) const;
   ProximityHit look_around(const LineHead& head, double fraction, const LocalSpacing& spacing);
   void cover(const LineHead& head, const LocalSpacing& spacing);
   [[nodiscard]] bool may_go_on(const LineHead& head, const ProximityHit& hit,
                                const LocalSpacing& spacing, double narrows_arc) const;
   void turn_back(const Narrows& narrows, LineHead& head, HalfLine& half);
+  bool meets_corner(const LineHead& head, ProximityQuery query, HalfLine& half);
   void trace_half(LineHead head, bool may_close, double stop_fraction, HalfLine& half);
   std::optional<Halves> trace_halves(const Seed& seed, double stop_fraction);
   [[nodiscard]] bool is_arc_among_rings(const Halves& halves) const;

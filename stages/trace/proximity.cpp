@@ -56,7 +56,7 @@ void ProximityIndex::add_barrier(Index halfedge) {
   const Vec3& b = mesh.positions[mesh.to(halfedge)];
   const double largest = std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff());
   barriers_.push_back({a, b, (b - a).normalized(), (a + b) / 2,
-                       (b - a).norm() / 2 + kRounding * (largest + (b - a).norm())});
+                       (b - a).norm() / 2 + kRounding * (largest + (b - a).norm()), halfedge});
 }
 
 void ProximityIndex::insert(std::span<const LineSegment> segments, Index line) {
@@ -140,6 +140,28 @@ std::pair<double, double> ProximityProbe::distances_beside(const ProximityQuery&
     return std::max(nearest.first, nearest.second);
   });
   return nearest;
+}
+
+Index ProximityProbe::corner_ahead(const ProximityQuery& query, double least_cosine) {
+  ++query_count_;
+  const TriMesh& mesh = index_.blocks().mesh();
+  Index found = kNone;
+  double nearest = query.distance;
+  walk_.around(query.face, query.point, query.distance, [&](Index block) {
+    index_.for_barriers(block, query.point, nearest, [&](const auto& barrier) {
+      for (const Index v : {mesh.from(barrier.halfedge), mesh.to(barrier.halfedge)}) {
+        if (mesh.is_corner[v] == 0) continue;
+        const Vec3 way = mesh.positions[v] - query.point;
+        const double distance = way.norm();
+        if (!(distance > 0) || distance >= nearest) continue;
+        if (way.dot(query.direction) < least_cosine * distance) continue;
+        nearest = distance;
+        found = v;
+      }
+    });
+    return nearest;
+  });
+  return found;
 }
 
 }  // namespace strake

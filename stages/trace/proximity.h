@@ -111,6 +111,7 @@ class ProximityIndex {
     Vec3 direction;  ///< unit
     Vec3 middle;
     double half_length = 0;  ///< rounded up
+    Index halfedge = kNone;
   };
   /// Calls use(barrier) for those around a block that may be nearer to a point than `distance`.
   template <class Use>
@@ -151,6 +152,10 @@ class ProximityProbe {
   /// the other one; the query's distance where there is none. Barriers count, the own line does
   /// not.
   std::pair<double, double> distances_beside(const ProximityQuery& query, const Vec3& left);
+
+  /// The nearest corner of feature and boundary lines within the query's distance that lies ahead,
+  /// in its direction. \param least_cosine  of the angle to it \return kNone where there is none
+  Index corner_ahead(const ProximityQuery& query, double least_cosine);
 
   /// Whether a walk from a point of a face comes to the block of another one within a distance.
   bool can_reach(Index face, const Vec3& point, double distance, Index target);

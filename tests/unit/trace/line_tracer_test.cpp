@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <stdexcept>
 
 #include "common/geometry/line_chord.h"
@@ -291,6 +292,109 @@ TEST(LineTracer, DoesNotWindAroundTheTipOfANeedle) {
   seed.barycentric = Vec3(0.5, 0.5 - 1e-5, 1e-5);
   seed.direction = field.cross[mesh.face_wedges[0][0]];
   EXPECT_LT(only_line(mesh, field, 100, seed).points.size(), 4 * 2 * kSides);
+}
+
+// However little there is of the tube for the distance of lines: seen from where a ring has come
+// too near to its start, that lies up to a quarter turn round the corner.
+TEST(LineTracer, ClosesRingsAroundThinTubes) {
+  TriMesh mesh = sample_mesh(SampleKind::open_cylinder, 3000, 0.8);
+  for (Vec3& p : mesh.positions) p.z() *= 5;  // keeps the ends out of the way
+  const PrincipalField field =
+      field_along(mesh, [](const Vec3& p) { return Vec3(-p.y(), p.x(), 0).normalized(); });
+  const auto height = [&](Index f) { return std::abs(mesh.positions[mesh.faces[f][0]].z()); };
+  Seed seed;
+  seed.face = 0;
+  for (Index f = 1; f < mesh.face_count(); ++f) {
+    if (height(f) < height(seed.face)) seed.face = f;
+  }
+  seed.direction = field.cross[mesh.face_wedges[seed.face][0]];
+  for (double distance = 0.5; distance < 3; distance += 0.05) {  // steps end anywhere
+    const TracedLine line = only_line(mesh, field, distance, seed);
+    EXPECT_EQ(line.end_reason, LineEnd::closed) << "2 pi around, lines " << distance << " apart";
+  }
+}
+
+/// A plane of jittered triangles, and a feature along the x axis with a gap from -`half_gap` to it.
+class FeaturesInARow {
+ public:
+  explicit FeaturesInARow(double half_gap) {
+    constexpr Index kSide = 21;
+    constexpr double kStep = 0.1;
+    PolyMesh soup;
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> jitter(-0.3 * kStep, 0.3 * kStep);
+    for (Index j = 0; j < kSide; ++j) {
+      for (Index i = 0; i < kSide; ++i) {
+        const double x = kStep * (i - kSide / 2);
+        const double y = kStep * (j - kSide / 2);
+        const bool is_free = j != kSide / 2 || std::abs(x) < half_gap - kStep / 2;
+        soup.positions.emplace_back(x + (is_free ? jitter(random) : 0),
+                                    y + (is_free ? jitter(random) : 0), 0);
+      }
+    }
+    for (Index j = 0; j + 1 < kSide; ++j) {
+      for (Index i = 0; i + 1 < kSide; ++i) {
+        const Index v = j * kSide + i;
+        soup.add_face(std::array<Index, 3>{v, v + 1, v + kSide + 1});
+        soup.add_face(std::array<Index, 3>{v, v + kSide + 1, v + kSide});
+      }
+    }
+    mesh = support::plain_tri_mesh(soup);
+    const Vec3 ahead = Vec3(1, 0.02, 0).normalized();
+    const auto has_on_left = [](const Vec3& way, const Vec3& other) {
+      return way.cross(other).z() > 0;
+    };
+    barriers.assign(mesh.halfedge_count(), 0);
+    for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+      const Vec3 a = mesh.positions[mesh.from(h)] + mesh.origin;
+      const Vec3 b = mesh.positions[mesh.to(h)] + mesh.origin;
+      const auto is_on_it = [&](const Vec3& p) {
+        return p.y() == 0 && std::abs(p.x()) > half_gap - kStep / 2;
+      };
+      if (is_on_it(a) && is_on_it(b)) mesh.is_feature[h] = barriers[h] = 1;
+      if (mesh.is_boundary(h)) barriers[h] = 1;
+      if (!is_on_it(a) || std::abs(a.x()) > half_gap + kStep / 2) continue;
+      mesh.is_corner[mesh.from(h)] = 1;
+      if (a.x() > 0) {
+        right = mesh.from(h);
+      } else if (has_on_left(b - a, ahead) &&
+                 has_on_left(ahead,
+                             mesh.positions[mesh.from(TriMesh::prev(h))] + mesh.origin - a)) {
+        start.anchor = {h, 0};
+        start.face = TriMesh::face_of(h);
+      }
+    }
+    start.direction = ahead;
+  }
+
+  TriMesh mesh;
+  std::vector<std::uint8_t> barriers;
+  Index right = kNone;  ///< the corner on the right of the gap
+  Seed start;           ///< at the left one
+};
+
+// A feature straight ahead is alike, but a line that leads to its end is no line beside it.
+TEST(LineTracer, MeetsTheCornerAheadOfIt) {
+  for (const double half_gap : {0.2, 0.3, 0.5}) {
+    const FeaturesInARow row(half_gap);
+    const PrincipalField field = field_along(row.mesh, [](const Vec3&) { return Vec3::UnitX(); });
+    for (const double distance : {0.3, 0.6, 1.2}) {
+      Spacing spacing;
+      spacing.along.assign(row.mesh.wedge_count(), distance);
+      spacing.across.assign(row.mesh.wedge_count(), distance);
+      const TraceDomain domain{row.mesh, field, spacing, FaceNormals(row.mesh)};
+      const LineDraft draft = Lines(domain, row.barriers).trace(row.start);
+      SCOPED_TRACE(testing::Message() << "gap " << 2 * half_gap << ", lines " << distance);
+      ASSERT_TRUE(draft.is_line);
+      const LinePoint& end = draft.line.points.back();
+      EXPECT_TRUE(is_vertex_point(end));
+      EXPECT_EQ(row.mesh.from(end.halfedge), row.right);
+      for (std::size_t i = 1; i < draft.line.points.size(); ++i) {
+        EXPECT_TRUE(is_proper_chord(row.mesh, draft.line.chord_face[i - 1],
+                                    draft.line.points[i - 1], draft.line.points[i]));
+      }
+    }
+  }
 }
 
 }  // namespace
