@@ -18,7 +18,9 @@ void remove_flat_faces(Soup& soup, std::vector<Index> twin, double diagonal, Rep
 /// A surface with less area than this share of the square of its extent has none.
 inline constexpr double kThinnest = 1e-9;
 
-/// Removes connected pieces that have no area as a whole: points and lines, however many triangles.
-void drop_pieces_without_area(Soup& soup, Repairs& repairs);
+/// Removes connected pieces that have no area as a whole: points and lines, however many triangles;
+/// and narrow ones (`is_narrow`) that were cut off others: slivers that a union has left.
+/// \pre vertices that were copied for fans have the same source vertex
+void drop_pieces_without_area(Soup& soup, double diagonal, Repairs& repairs);
 
 }  // namespace strake::import
