@@ -12,6 +12,7 @@ namespace strake::import {
 namespace {
 
 constexpr double kZeroLength = 1e-10;  ///< of the diagonal
+constexpr double kRoundedAway = 1e-6;  ///< the same where a union has left slivers
 constexpr double kFlat = 1e-6;         ///< height over longest edge
 
 Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
@@ -22,7 +23,7 @@ class FlatFaceRemover {
   FlatFaceRemover(Soup& soup, std::vector<Index>& twin, double diagonal, Repairs& repairs)
       : soup_(soup),
         twin_(twin),
-        shortest_(kZeroLength * diagonal),
+        shortest_((repairs.folded_slivers > 0 ? kRoundedAway : kZeroLength) * diagonal),
         repairs_(repairs),
         removed_(soup.faces.size(), 0) {}
 

@@ -71,12 +71,20 @@ TEST(ClosedComponents, OpenAndFlatOnesAreNotJudged) {
   const PolyMesh turned = shapes::turned(sheet, [](Index) { return true; });
   EXPECT_EQ(judge_closed_components(turned).count, 0);
   // Both sides of a sheet, joined at the rim and with inner vertices of their own.
-  const TriMesh flat = shapes::imported(support::transformed(
-      shapes::polygons({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0),
-                        Vec3(0.4, 0.5, 0), Vec3(0.6, 0.5, 0)},
-                       {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4},
-                        {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}}),
-      support::oblique_rotation(), Vec3(1, 2, 3))).mesh;
+  const TriMesh flat =
+      shapes::imported(support::transformed(
+                           shapes::polygons({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0),
+                                             Vec3(0, 1, 0), Vec3(0.4, 0.5, 0), Vec3(0.6, 0.5, 0)},
+                                            {{0, 1, 4},
+                                             {1, 2, 4},
+                                             {2, 3, 4},
+                                             {3, 0, 4},
+                                             {1, 0, 5},
+                                             {2, 1, 5},
+                                             {3, 2, 5},
+                                             {0, 3, 5}}),
+                           support::oblique_rotation(), Vec3(1, 2, 3)))
+          .mesh;
   const ClosedComponents closed = judge_closed_components(flat);
   EXPECT_EQ(closed.count, 1);
   EXPECT_EQ(closed.inside_out, 0);
@@ -90,8 +98,8 @@ TEST(ClosedComponents, ImportSaysHowManyAreInsideOut) {
     }
     return "";
   };
-  const PolyMesh open = support::transformed(
-      shapes::grid(2, 2, [](double, double) { return 0.0; }), Mat3::Identity(), Vec3(20, 0, 0));
+  const PolyMesh open = support::transformed(shapes::grid(2, 2, [](double, double) { return 0.0; }),
+                                             Mat3::Identity(), Vec3(20, 0, 0));
   EXPECT_EQ(warning_of(all_of({box(kOrigin, 3), box(kOrigin, -1), open})), "");
   EXPECT_TRUE(warning_of(box(kOrigin, -1)).starts_with("the surface is inside out"));
   EXPECT_TRUE(warning_of(all_of({box(kOrigin, 3), box(kAside, -1), open}))

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -59,6 +60,21 @@ TEST(Openings, SliversThatAUnionLeavesDoNotOpenASolid) {
   EXPECT_EQ(counts.boundary_loops, 0);
 }
 
+TEST(Openings, ShortEdgesGoWhereAUnionLeftSlivers) {
+  // A vertex on the edge along x, 3e-7 of the diagonal from its end.
+  PolyMesh mesh = shapes::filtered(cube_with(1e-6, {}), [](Index f) { return f != 0 && f != 2; });
+  mesh.positions.emplace_back(5e-7, 0, 0);
+  mesh.add_face(std::vector<Index>{0, 2, 3, 1, 10});
+  mesh.add_face(std::vector<Index>{0, 10, 1, 5, 4});
+  EXPECT_EQ(imported(mesh).mesh.vertex_count(), 9);
+  for (std::vector<Index> moved : kFold) {
+    std::replace(moved.begin(), moved.end(), 0, 10);
+    mesh.add_face(moved);
+  }
+  EXPECT_EQ(imported(mesh).mesh.vertex_count(), 8);
+  expect_whole_cube(mesh);
+}
+
 TEST(Openings, WideSheetsAndShellsStay) {
   const auto area_with = [&](const std::vector<std::vector<Index>>& faces) {
     return shapes::area(imported(cube_with(0.5, faces)).mesh);
@@ -81,9 +97,9 @@ TEST(Openings, NarrowPiecesOfTheirOwnStay) {
 TEST(Openings, WhatRepairsOpenAndTakeApartIsSaid) {
   // Three triangles at an edge, two of them in a plane: 6 edges on the boundary, and one more
   // where the third comes off.
-  const PolyMesh flaps = shapes::polygons(
-      {Vec3(0, 0, 0), Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0)},
-      {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
+  const PolyMesh flaps =
+      shapes::polygons({Vec3(0, 0, 0), Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0)},
+                       {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
   const std::string warning = warning_of(imported(flaps));
   EXPECT_NE(warning.find("has 7 boundary edges, and had 6"), std::string::npos) << warning;
   EXPECT_NE(warning.find("has 2 pieces, and had 1"), std::string::npos) << warning;
