@@ -56,6 +56,15 @@ void print_topology(const PolyTopology& topology) {
   }
 }
 
+/// Only where there is something to say: that closed surfaces look outwards goes without saying.
+void print_orientation(const PolyMesh& mesh, const PolyTopology& topology) {
+  const ClosedComponents closed = judge_closed_components(mesh);
+  if (closed.inside_out == 0 && closed.cavities == 0) return;
+  fmt::print("  inside out {} of {} components", closed.inside_out, topology.components);
+  if (closed.cavities > 0) fmt::print(", and {} that are cavities of others", closed.cavities);
+  fmt::print("\n");
+}
+
 int print_info(const std::string& path) {
   if (is_artifact(path)) {
     print_artifact(path);
@@ -65,7 +74,9 @@ int print_info(const std::string& path) {
   const PolyMesh mesh = read_mesh(path, read);
   fmt::print("{}: mesh file, {}\n", path, read.format);
   for (const std::string& warning : read.warnings()) fmt::print("  warning    {}\n", warning);
-  print_topology(analyse(mesh));
+  const PolyTopology topology = analyse(mesh);
+  print_topology(topology);
+  print_orientation(mesh, topology);
   return 0;
 }
 

@@ -12,6 +12,7 @@ namespace strake::import {
 namespace {
 
 constexpr double kZeroLength = 1e-10;  ///< of the diagonal
+constexpr double kRoundedAway = 1e-6;  ///< the same where a union has left slivers
 constexpr double kFlat = 1e-6;         ///< height over longest edge
 
 Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
@@ -22,7 +23,7 @@ class FlatFaceRemover {
   FlatFaceRemover(Soup& soup, std::vector<Index>& twin, double diagonal, Repairs& repairs)
       : soup_(soup),
         twin_(twin),
-        shortest_(kZeroLength * diagonal),
+        shortest_((repairs.folded_slivers > 0 ? kRoundedAway : kZeroLength) * diagonal),
         repairs_(repairs),
         removed_(soup.faces.size(), 0) {}
 
@@ -213,7 +214,30 @@ void remove_flat_faces(Soup& soup, std::vector<Index> twin, double diagonal, Rep
   remove_faces(soup, remover.removed());
 }
 
-void drop_pieces_without_area(Soup& soup, Repairs& repairs) {
+namespace {
+
+/// [V] 1 at the first vertex of pieces that share a source vertex with another one.
+std::vector<std::uint8_t> find_cut_off(const Soup& soup, DisjointSets& pieces) {
+  const Index sources = 1 + *std::max_element(soup.source_vertex.begin(), soup.source_vertex.end());
+  std::vector<Index> piece_at(sources, kNone);
+  std::vector<std::uint8_t> is_cut_off(soup.positions.size(), 0);
+  for (const Triangle& face : soup.faces) {
+    for (const Index v : face) {
+      if (soup.source_vertex[v] == kNone) continue;
+      const Index piece = pieces.find(v);
+      Index& known = piece_at[soup.source_vertex[v]];
+      if (known == kNone) known = piece;
+      if (known == piece) continue;
+      is_cut_off[known] = 1;
+      is_cut_off[piece] = 1;
+    }
+  }
+  return is_cut_off;
+}
+
+}  // namespace
+
+void drop_pieces_without_area(Soup& soup, double diagonal, Repairs& repairs) {
   DisjointSets pieces(soup.vertex_count());
   for (const auto& [a, b, c] : soup.faces) {
     pieces.unite(a, b);
@@ -226,11 +250,14 @@ void drop_pieces_without_area(Soup& soup, Repairs& repairs) {
     area[piece] += face_area(soup, f);
     for (const Index v : soup.faces[f]) box[piece].extend(soup.positions[v]);
   }
+  const std::vector<std::uint8_t> is_cut_off = find_cut_off(soup, pieces);
   std::vector<std::uint8_t> remove(soup.faces.size(), 0);
   std::int64_t count = 0;
   for (Index f = 0; f < soup.face_count(); ++f) {
     const Index piece = pieces.find(soup.faces[f][0]);
-    remove[f] = area[piece] <= kThinnest * box[piece].diagonal().squaredNorm() ? 1 : 0;
+    const bool is_line = area[piece] <= kThinnest * box[piece].diagonal().squaredNorm();
+    const bool is_sliver = is_cut_off[piece] != 0 && is_narrow(area[piece], box[piece], diagonal);
+    remove[f] = is_line || is_sliver ? 1 : 0;
     count += remove[f];
   }
   if (count > 0) remove_faces(soup, remove);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/core/error.h"
+#include "common/geometry/topology/closed_components.h"
 #include "common/geometry/topology/topology.h"
 #include "stages/import/assemble.h"
 #include "stages/import/carry.h"
@@ -18,6 +19,7 @@
 #include "stages/import/features.h"
 #include "stages/import/flat_faces.h"
 #include "stages/import/noise.h"
+#include "stages/import/openings.h"
 #include "stages/import/sew.h"
 #include "stages/import/sheets.h"
 #include "stages/import/soup.h"
@@ -81,6 +83,7 @@ std::vector<std::string> describe(const Repairs& repairs, double diagonal) {
   add(repairs.degenerate_faces, "faces dropped that use a vertex twice");
   add(repairs.duplicate_faces, "faces dropped that were there twice");
   add(repairs.inner_faces, "faces dropped that were walls between touching solids");
+  add(repairs.folded_slivers, "faces dropped that were slivers folded onto each other");
   add(repairs.faces_without_area, "faces dropped that belong to pieces without area");
   add(repairs.welded_vertices, "vertices merged where borders coincide");
   if (repairs.sewn_vertices > 0) {
@@ -129,6 +132,7 @@ void report_repairs(const Repairs& repairs, double removed_percent, double diago
   report.set("repairs.degenerate_faces", repairs.degenerate_faces);
   report.set("repairs.duplicate_faces", repairs.duplicate_faces);
   report.set("repairs.inner_faces", repairs.inner_faces);
+  report.set("repairs.folded_slivers", repairs.folded_slivers);
   report.set("repairs.faces_without_area", repairs.faces_without_area);
   report.set("repairs.removed_percent", removed_percent);
   report.set("repairs.welded_vertices", repairs.welded_vertices);
@@ -144,6 +148,16 @@ void report_repairs(const Repairs& repairs, double removed_percent, double diago
   report.set("repairs.flipped_edges", repairs.flipped_edges);
   report.set("repairs.unreferenced_vertices", repairs.unreferenced_vertices);
   for (std::string& sentence : describe(repairs, diagonal)) report.warn(std::move(sentence));
+}
+
+void report_openings(const import::Openness& given, const import::Openness& repaired,
+                     Report& report) {
+  report.set("repairs.boundary_edges_before", given.boundary_edges);
+  report.set("repairs.boundary_edges_after", repaired.boundary_edges);
+  report.set("repairs.components_before", given.components);
+  report.set("repairs.components_after", repaired.components);
+  std::string warning = import::describe_openings(given, repaired);
+  if (!warning.empty()) report.warn(std::move(warning));
 }
 
 /// What stays open here is a crack in the result.
@@ -242,19 +256,20 @@ void divide_long_edges(TriMesh& mesh, const ImportOptions& options, Report& repo
              import::divide_long_edges(mesh, longest, mesh.vertex_count() + kMostVertices));
 }
 
-/// Three times the volume that a closed surface encloses, negative where its faces look inwards.
-double signed_volume(const TriMesh& mesh) {
-  double sum = 0;
-  for (const auto& [a, b, c] : mesh.faces) {
-    sum += mesh.positions[a].dot(mesh.positions[b].cross(mesh.positions[c])) / 2;
-  }
-  return sum;
-}
-
 /// Faces all around may be turned over on purpose, as those of a mould are.
-void warn_of_inside_out(const TriMesh& mesh, const Census& counts, Report& report) {
-  if (counts.boundary_loops > 0 || signed_volume(mesh) >= 0) return;
-  report.warn("the surface is inside out: its faces look inwards, and those of the result will");
+void report_orientation(const TriMesh& mesh, const Census& counts, Report& report) {
+  const ClosedComponents closed = judge_closed_components(mesh);
+  report.set("census.closed_components", closed.count);
+  report.set("census.inside_out_components", closed.inside_out);
+  report.set("census.cavities", closed.cavities);
+  if (closed.inside_out == 0) return;
+  const std::string what = counts.components == 1
+                               ? "the surface is inside out: its faces look"
+                               : fmt::format("{} of {} components are inside out: their faces look",
+                                             closed.inside_out, counts.components);
+  report.warn(what +
+              " inwards, and those of the result will; turn them over before if they should "
+              "look outwards");
 }
 
 FeatureRules feature_rules(const ImportOptions& options, double diagonal) {
@@ -325,10 +340,11 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
   border = import::sew_gaps(triangles, border, frame.diagonal, repairs);
   const import::NearBorders near = import::find_near_borders(triangles, border, frame.diagonal);
   import::drop_degenerate_faces(triangles, repairs);
-  import::drop_duplicate_faces(triangles, repairs);
+  const import::Openness given = import::openness(triangles);
+  import::drop_duplicate_faces(triangles, frame.diagonal, repairs);
   import::remove_flat_faces(triangles, import::make_manifold(triangles, repairs), frame.diagonal,
                             repairs);
-  import::drop_pieces_without_area(triangles, repairs);
+  import::drop_pieces_without_area(triangles, frame.diagonal, repairs);
   if (triangles.faces.empty()) throw InputError("the mesh has no face left after the repairs");
   if (options.strict) refuse_repairs(repairs, frame.diagonal);
   const double removed_percent =
@@ -337,6 +353,7 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
 
   observer.report("ordering", 0.5);
   result.mesh = import::assemble(triangles);
+  const import::Openness repaired = import::openness(result.mesh);
   import::carry_attributes(soup, result.mesh);
   result.mesh.origin = frame.origin;
   result.mesh.diagonal = frame.diagonal;
@@ -362,8 +379,9 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
   result.report.set("input.faces", soup.face_count());
   const Census counts = census(result.mesh);
   report_census(result.mesh, counts, result.report);
-  warn_of_inside_out(result.mesh, counts, result.report);
+  report_orientation(result.mesh, counts, result.report);
   report_repairs(repairs, removed_percent, frame.diagonal, result.report);
+  report_openings(given, repaired, result.report);
   report_near_borders(near, frame.diagonal, result.report);
   report_features(features, result.report);
   report_attributes(result.mesh.attributes, result.report);

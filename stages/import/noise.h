@@ -12,11 +12,15 @@ struct Noise {
   /// 0 where bends around a vertex and its neighbours are all to the same side, 1 where they
   /// cancel.
   double to_and_fro = 0;
+  /// Share of bent edges, by length, that repeat those on two opposite sides of them, as facets of
+  /// threads and twisted profiles do.
+  double repeated = 0;
 
   /// Whether it is so large that directions of curvature, and lines along them, mean little.
   [[nodiscard]] bool is_much() const;
 };
 
+/// Where bends are no noise in any case, what repeats is not looked for.
 /// Cost O(n).
 Noise measure_noise(const TriMesh& mesh);
 

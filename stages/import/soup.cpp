@@ -85,6 +85,11 @@ double total_area(const Soup& soup) {
   return area;
 }
 
+bool is_narrow(double area, const Eigen::AlignedBox3d& box, double diagonal) {
+  constexpr double kNarrow = 1e-5;  // what rounding leaves of a union is written with 5 digits
+  return area <= kNarrow * diagonal * box.diagonal().norm();
+}
+
 void drop_degenerate_faces(Soup& soup, Repairs& repairs) {
   std::vector<std::uint8_t> remove(soup.faces.size(), 0);
   std::int64_t count = 0;
@@ -129,45 +134,72 @@ std::vector<Index> count_copies(const Soup& soup) {
   return copies;
 }
 
-/// Finds patches of doubled faces that are walls between touching solids. \return [F] 1 in walls
-std::vector<std::uint8_t> find_inner_walls(const Soup& soup,
-                                           const std::vector<std::uint8_t>& is_doubled) {
-  const EdgeGroups groups(soup);
-  DisjointSets patches(soup.face_count());
-  for (Index g = 0; g < groups.size(); ++g) {
-    Index first = kNone;
-    for (const Index h : groups[g]) {
-      if (is_doubled[h / 3] == 0) continue;
-      if (first != kNone) patches.unite(first, h / 3);
-      first = h / 3;
+/// Patches of doubled faces, connected over edges. Flags and measures stand at a patch's face
+/// `patches.find(f)`.
+struct DoubledPatches {
+  DoubledPatches(const Soup& soup, const EdgeGroups& groups,
+                 const std::vector<std::uint8_t>& is_doubled)
+      : sets(soup.face_count()), size(soup.faces.size(), 0), area(soup.faces.size(), 0) {
+    for (Index g = 0; g < groups.size(); ++g) {
+      Index first = kNone;
+      for (const Index h : groups[g]) {
+        if (is_doubled[h / 3] == 0) continue;
+        if (first != kNone) sets.unite(first, h / 3);
+        first = h / 3;
+      }
+    }
+    box.resize(soup.faces.size());
+    for (Index f = 0; f < soup.face_count(); ++f) {
+      const Index patch = sets.find(f);
+      ++size[patch];
+      area[patch] += face_area(soup, f);
+      for (const Index v : soup.faces[f]) box[patch].extend(soup.positions[v]);
     }
   }
-  std::vector<Index> patch_size(soup.faces.size(), 0);  // at the patch's first face
-  for (Index f = 0; f < soup.face_count(); ++f) ++patch_size[patches.find(f)];
+
+  DisjointSets sets;
+  std::vector<Index> size;
+  std::vector<double> area;
+  std::vector<Eigen::AlignedBox3d> box;
+};
+
+enum class Inner : std::uint8_t { none, wall, sliver };
+
+/// Finds patches of doubled faces without which solids stay closed. \return [F]
+std::vector<Inner> find_inner_faces(const Soup& soup, const std::vector<std::uint8_t>& is_doubled,
+                                    double diagonal) {
+  const EdgeGroups groups(soup);
+  DoubledPatches patches(soup, groups, is_doubled);
   std::vector<std::uint8_t> meets_solids(soup.faces.size(), 0);
-  std::vector<std::uint8_t> is_sheet(soup.faces.size(), 0);
+  std::vector<std::uint8_t> has_rim(soup.faces.size(), 0);
+  std::vector<std::uint8_t> meets_sheets(soup.faces.size(), 0);
   for (Index g = 0; g < groups.size(); ++g) {
-    const auto is_wall = [&](Index h) { return is_doubled[h / 3] != 0; };
-    const auto wall = std::find_if(groups[g].begin(), groups[g].end(), is_wall);
-    if (wall == groups[g].end()) continue;
-    const auto walls = std::count_if(groups[g].begin(), groups[g].end(), is_wall);
-    const auto others = static_cast<std::ptrdiff_t>(groups[g].size()) - walls;
-    const Index patch = patches.find(*wall / 3);
+    const auto is_inner = [&](Index h) { return is_doubled[h / 3] != 0; };
+    const auto inner = std::find_if(groups[g].begin(), groups[g].end(), is_inner);
+    if (inner == groups[g].end()) continue;
+    const auto count = std::count_if(groups[g].begin(), groups[g].end(), is_inner);
+    const auto others = static_cast<std::ptrdiff_t>(groups[g].size()) - count;
+    const Index patch = patches.sets.find(*inner / 3);
     if (others == 2) meets_solids[patch] = 1;
-    const bool is_rim = others == 0 && walls == 1 && patch_size[patch] > 1;
-    if (is_rim || (others != 0 && others != 2)) is_sheet[patch] = 1;
+    if (others == 0 && count == 1 && patches.size[patch] > 1) has_rim[patch] = 1;
+    if (others != 0 && others != 2) meets_sheets[patch] = 1;
   }
-  std::vector<std::uint8_t> result(soup.faces.size(), 0);
+  std::vector<Inner> result(soup.faces.size(), Inner::none);
   for (Index f = 0; f < soup.face_count(); ++f) {
-    const Index patch = patches.find(f);
-    result[f] = is_doubled[f] != 0 && meets_solids[patch] != 0 && is_sheet[patch] == 0 ? 1 : 0;
+    const Index patch = patches.sets.find(f);
+    if (is_doubled[f] == 0 || meets_solids[patch] == 0 || meets_sheets[patch] != 0) continue;
+    // A rim is that of a sheet, or of what a union has left folded within its own rounding.
+    if (has_rim[patch] == 0) result[f] = Inner::wall;
+    if (has_rim[patch] != 0 && is_narrow(patches.area[patch], patches.box[patch], diagonal)) {
+      result[f] = Inner::sliver;
+    }
   }
   return result;
 }
 
 }  // namespace
 
-void drop_duplicate_faces(Soup& soup, Repairs& repairs) {
+void drop_duplicate_faces(Soup& soup, double diagonal, Repairs& repairs) {
   const std::vector<Index> copies = count_copies(soup);
   std::vector<std::uint8_t> is_copy(soup.faces.size(), 0);
   std::vector<std::uint8_t> is_doubled;
@@ -180,9 +212,13 @@ void drop_duplicate_faces(Soup& soup, Repairs& repairs) {
   if (dropped == 0) return;
   repairs.duplicate_faces += dropped;
   remove_faces(soup, is_copy);
-  const std::vector<std::uint8_t> walls = find_inner_walls(soup, is_doubled);
-  repairs.inner_faces += std::count(walls.begin(), walls.end(), 1);
-  remove_faces(soup, walls);
+  const std::vector<Inner> inner = find_inner_faces(soup, is_doubled, diagonal);
+  repairs.inner_faces += std::count(inner.begin(), inner.end(), Inner::wall);
+  repairs.folded_slivers += std::count(inner.begin(), inner.end(), Inner::sliver);
+  std::vector<std::uint8_t> remove(inner.size());
+  std::transform(inner.begin(), inner.end(), remove.begin(),
+                 [](Inner kind) { return kind == Inner::none ? 0 : 1; });
+  remove_faces(soup, remove);
 }
 
 }  // namespace strake::import

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -37,6 +38,7 @@ struct Repairs {
   std::int64_t duplicate_faces = 0;
   double duplicate_area = 0;            ///< of all copies but one, model units squared
   std::int64_t inner_faces = 0;         ///< of walls between solids that touch
+  std::int64_t folded_slivers = 0;      ///< of both copies that a union has left
   std::int64_t faces_without_area = 0;  ///< of pieces that have none at all
   std::int64_t non_manifold_edges = 0;
   std::int64_t inserted_vertices = 0;  ///< to tell apart edges with the same two end points
@@ -71,6 +73,9 @@ void remove_faces(Soup& soup, const std::vector<std::uint8_t>& remove);
 double face_area(const Soup& soup, Index face);
 double total_area(const Soup& soup);
 
+/// Whether a patch in this box is narrower, in the mean, than 1e-5 of the diagonal of the model.
+bool is_narrow(double area, const Eigen::AlignedBox3d& box, double diagonal);
+
 /// Removes faces with a repeated corner.
 void drop_degenerate_faces(Soup& soup, Repairs& repairs);
 
@@ -78,7 +83,9 @@ void drop_degenerate_faces(Soup& soup, Repairs& repairs);
 ///
 /// Where solids touch in faces that they share, what is left of these faces would be a wall inside:
 /// patches of doubled faces all of whose border edges have two further faces are removed for good,
-/// as are single faces folded onto each other where just such edges hold them.
-void drop_duplicate_faces(Soup& soup, Repairs& repairs);
+/// as are single faces folded onto each other where just such edges hold them. So are patches with
+/// a free rim that are narrower than 1e-5 of the diagonal: one copy of them would open the solid
+/// that they hang on.
+void drop_duplicate_faces(Soup& soup, double diagonal, Repairs& repairs);
 
 }  // namespace strake::import

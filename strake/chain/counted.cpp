@@ -21,6 +21,12 @@ std::int64_t given_vertex_count(const Session& session) {
   return mesh.vertex_count() - std::ranges::count(mesh.source_vertex, kNone);
 }
 
+bool is_input_spent(const Session& session) {
+  constexpr double kNearlyAll = 0.95;
+  return session.has("decimated") && session.get<QuadMesh>("decimated").mesh.vertex_count() >=
+                                         kNearlyAll * session.get<TriMesh>("mesh").vertex_count();
+}
+
 Index corner_count(const Session& session) {
   return static_cast<Index>(std::ranges::count(session.get<TriMesh>("mesh").is_corner, 1));
 }

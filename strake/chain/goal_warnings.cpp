@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <string>
+
 #include "common/core/poly_mesh.h"
 #include "common/core/tri_mesh.h"
 
@@ -18,14 +20,17 @@ void warn_of_count(Session& session, const LineAim& aim) {
   if (aim.miss(reached) <= kCountTolerance) return;
   const Index corners = corner_count(session);
   const bool is_by_corners = aim.counted == Counted::vertices && corners > aim.wanted;
-  session.say(fmt::format(
-      "warning: {} {} were wanted, but the nearest result has {}: {}", aim.wanted,
-      name_of(aim.counted), reached,
-      is_by_corners
-          ? fmt::format("{} corners of feature and boundary lines stay; a larger --feature-angle "
-                        "keeps fewer",
-                        corners)
-          : "the shape, --max-spacing or the mesh's own resolution do not allow it"));
+  std::string why = "the shape, --max-spacing or the mesh's own resolution do not allow it";
+  if (is_by_corners) {
+    why = fmt::format(
+        "{} corners of feature and boundary lines stay; a larger --feature-angle keeps fewer",
+        corners);
+  } else if (reached < aim.wanted && is_input_spent(session)) {
+    why = fmt::format("decimation gives no more vertices than the {} of the input",
+                      session.get<TriMesh>("mesh").vertex_count());
+  }
+  session.say(fmt::format("warning: {} {} were wanted, but the nearest result has {}: {}",
+                          aim.wanted, name_of(aim.counted), reached, why));
 }
 
 void warn_of_excess(Session& session) {

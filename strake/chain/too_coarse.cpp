@@ -134,11 +134,16 @@ bool decimate_if_too_coarse(Session& session, const GoalStages& stages, Counted 
   session = other;
   session.keep(stages.decimate);
   session.keep(stages.fit);
+  const bool is_spent = is_input_spent(session);
+  std::string triangles;
+  if (decimated.odd > kUsuallyOdd) {
+    triangles = is_spent ? ", and has more triangles" : ", and has more triangles: ask for more";
+  }
   session.say(fmt::format(
-      "warning: lines are too coarse for this shape at {} {}: the result was decimated instead{}; "
-      "--lines-only keeps lines",
-      wanted, name_of(counted),
-      decimated.odd > kUsuallyOdd ? ", and has more triangles: ask for more" : ""));
+      "warning: {} at {} {}: the result was decimated instead{}; --lines-only keeps lines",
+      is_spent ? "faces along lines cross or miss this shape"
+               : "lines are too coarse for this shape",
+      wanted, name_of(counted), triangles));
   return true;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/core/disjoint_sets.h"
+#include "common/geometry/poly_topology/face_shape.h"
 
 namespace strake {
 namespace {
@@ -197,6 +198,31 @@ PolyTopology analyse(const PolyMesh& mesh) { return analyse(mesh, collect_edges(
 
 PolyTopology analyse(const PolyMesh& mesh, const PolyEdges& edges) {
   return Analysis(mesh, edges).run();
+}
+
+ClosedComponents judge_closed_components(const PolyMesh& mesh) {
+  const PolyEdges edges = collect_edges(mesh);
+  DisjointSets sets(mesh.face_count());
+  for (Index e = 0; e < edges.edge_count(); ++e) {
+    const std::span<const Index> sides = edges.sides_of(e);
+    for (const Index side : sides) {
+      sets.unite(edges.corner_face[sides[0]], edges.corner_face[side]);
+    }
+  }
+  // Numbered by their first face; other numbers are those of no component.
+  std::vector<std::uint8_t> is_closed(mesh.offsets.size() - 1, 0);
+  for (Index f = 0; f < mesh.face_count(); ++f) is_closed[sets.find(f)] = 1;
+  for (Index e = 0; e < edges.edge_count(); ++e) {
+    const std::span<const Index> sides = edges.sides_of(e);
+    const auto is_forward = [&](Index side) { return mesh.corners[side] == edges.vertices[e][0]; };
+    if (sides.size() != 2 || is_forward(sides[0]) == is_forward(sides[1])) {
+      is_closed[sets.find(edges.corner_face[sides[0]])] = 0;
+    }
+  }
+  const FaceTriangles triangles = triangulate_faces(mesh);
+  std::vector<Index> component;
+  for (const Index f : triangles.face) component.push_back(sets.find(f));
+  return judge_closed_components(mesh.positions, triangles.corners, component, is_closed);
 }
 
 }  // namespace strake

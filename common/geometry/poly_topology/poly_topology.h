@@ -8,6 +8,7 @@
 #include "common/core/poly_mesh.h"
 #include "common/core/types.h"
 #include "common/geometry/poly_topology/poly_edges.h"
+#include "common/geometry/topology/closed_components.h"
 
 namespace strake {
 
@@ -63,5 +64,8 @@ PolyTopology analyse(const PolyMesh& mesh);
 
 /// As above, with the mesh's edges at hand.
 PolyTopology analyse(const PolyMesh& mesh, const PolyEdges& edges);
+
+/// Which way the closed ones of its components look. As components, those connected over edges.
+ClosedComponents judge_closed_components(const PolyMesh& mesh);
 
 }  // namespace strake

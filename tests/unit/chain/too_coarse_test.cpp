@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <string>
 #include <variant>
@@ -93,6 +94,48 @@ TEST(TooCoarse, NothingChangesWhereLinesDo) {
   EXPECT_FALSE(is_decimated(result));
   options.lines_only = true;
   EXPECT_EQ(result.quads.mesh.positions, remesh({mesh, {}, {}, {}}, options).quads.mesh.positions);
+}
+
+/// Wavy sheets that lie close above each other, `along` quads wide.
+PolyMesh close_sheets(int along) {
+  PolyMesh mesh;
+  for (int sheet = 0; sheet < 3; ++sheet) {
+    const Index first = mesh.vertex_count();
+    for (int j = 0; j <= along; ++j) {
+      for (int i = 0; i <= along; ++i) {
+        const double x = double(i) / along;
+        const double y = double(j) / along;
+        mesh.positions.emplace_back(x, y, 0.2 * std::sin(9 * x) * std::sin(7 * y) + 3e-4 * sheet);
+      }
+    }
+    for (int j = 0; j < along; ++j) {
+      for (int i = 0; i < along; ++i) {
+        const Index a = first + j * (along + 1) + i;
+        mesh.add_face(std::vector<Index>{a, a + 1, a + along + 2, a + along + 1});
+      }
+    }
+  }
+  return mesh;
+}
+
+// Faces along lines cross from sheet to sheet, and decimation makes no vertices.
+TEST(TooCoarse, MoreThanTheInputHasIsNamed) {
+  RemeshOptions options;
+  options.trace.vertices = 3260;
+  options.measure = false;
+  const RemeshResult result = remesh({close_sheets(30), {}, {}, {}}, options);
+  ASSERT_TRUE(is_decimated(result));
+  const Index given = result.mesh.vertex_count();
+  ASSERT_LT(given, 0.95 * 3260);
+  EXPECT_LE(result.quads.mesh.vertex_count(), given);
+  const auto is_said = [&](const std::string& text) {
+    return std::ranges::any_of(result.messages, [&](const std::string& message) {
+      return message.find(text) != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(is_said("no more vertices than the " + std::to_string(given) + " of the input"));
+  EXPECT_FALSE(is_said("too coarse"));
+  EXPECT_FALSE(is_said("ask for more"));
 }
 
 TEST(TooCoarse, PureQuadsAndGuidesNeedLines) {

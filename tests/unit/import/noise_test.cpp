@@ -83,6 +83,45 @@ TEST(Noise, ShowsOnScanLines) {
   EXPECT_TRUE(measure_noise(shapes::imported(lines).mesh).is_much());
 }
 
+/// A thread as it is extruded with a twist of 10 degrees a layer: the flanks of a profile of 60
+/// points, as triangles.
+PolyMesh thread() {
+  constexpr int kRound = 60;
+  constexpr int kLayers = 60;
+  PolyMesh mesh;
+  for (int layer = 0; layer <= kLayers; ++layer) {
+    for (int i = 0; i < kRound; ++i) {
+      const double off = std::abs((i + kRound / 2) % kRound - kRound / 2) / (0.5 * kRound);
+      const double radius = 6 + 3 * std::clamp(4 * (0.62 - off), 0.0, 1.0);
+      const double turn = 2 * std::numbers::pi * (i / double(kRound) - layer / 36.0);
+      mesh.positions.emplace_back(radius * std::cos(turn), radius * std::sin(turn), layer / 6.0);
+    }
+  }
+  for (int layer = 0; layer < kLayers; ++layer) {
+    for (int i = 0; i < kRound; ++i) {
+      const Index a = layer * kRound + i;
+      const Index b = layer * kRound + (i + 1) % kRound;
+      mesh.add_face(std::array<Index, 3>{a, b, b + kRound});
+      mesh.add_face(std::array<Index, 3>{a, b + kRound, a + kRound});
+    }
+  }
+  return mesh;
+}
+
+TEST(Noise, FacetsThatRepeatAreNone) {
+  PolyMesh mesh = thread();
+  const import::Noise facets = measure_noise(support::plain_tri_mesh(mesh));
+  // Bent as much, and as much to and fro, as noise is.
+  EXPECT_GT(facets.median_bend_deg, 20);
+  EXPECT_GT(facets.to_and_fro, 0.75);
+  EXPECT_GT(facets.repeated, 0.9);
+  EXPECT_FALSE(facets.is_much());
+  add_noise(mesh, 0.3);
+  const import::Noise rough = measure_noise(support::plain_tri_mesh(mesh));
+  EXPECT_LT(rough.repeated, 0.1);
+  EXPECT_TRUE(rough.is_much());
+}
+
 TEST(Noise, IsMeasuredAlikeInAnyUnit) {
   PolyMesh mesh = sample(SampleKind::torus, 2000);
   add_noise(mesh, 0.2);

@@ -1,0 +1,148 @@
+#include "common/geometry/topology/closed_components.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "common/geometry/topology/topology.h"
+
+namespace strake {
+namespace {
+
+/// Share of area times extent below which a volume is that of rounding.
+constexpr double kNoVolume = 1e-9;
+/// Points of a component at which is looked whether it lies inside others.
+constexpr std::size_t kPoints = 9;
+
+struct Solid {
+  double volume = 0;
+  double area = 0;
+  Eigen::AlignedBox3d box;
+  std::vector<Index> faces;
+
+  [[nodiscard]] bool looks_inwards() const {
+    return volume < -kNoVolume * area * box.diagonal().norm();
+  }
+};
+
+/// A point of a component, and how often others go around it, outwards less inwards.
+struct Point {
+  Vec3 at;
+  Index component;
+  int winding = 0;
+};
+
+class Judge {
+ public:
+  Judge(std::span<const Vec3> positions, std::span<const std::array<Index, 3>> faces,
+        std::span<const Index> component, std::span<const std::uint8_t> is_closed)
+      : positions_(positions), faces_(faces), component_(component), is_closed_(is_closed) {}
+
+  ClosedComponents run() {
+    measure();
+    place_points();
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+      if (!points_.empty() && is_closed_[component_[f]] != 0) cross(f);
+    }
+    std::vector<std::uint8_t> is_cavity(solids_.size(), 1);
+    for (const Point& point : points_) {
+      if (point.winding < 1) is_cavity[point.component] = 0;
+    }
+    ClosedComponents result;
+    for (std::size_t c = 0; c < solids_.size(); ++c) {
+      if (is_closed_[c] == 0) continue;
+      ++result.count;
+      if (solids_[c].looks_inwards()) ++(is_cavity[c] != 0 ? result.cavities : result.inside_out);
+    }
+    return result;
+  }
+
+ private:
+  void measure() {
+    solids_.resize(is_closed_.size());
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+      if (is_closed_[component_[f]] == 0) continue;
+      Solid& solid = solids_[component_[f]];
+      solid.faces.push_back(static_cast<Index>(f));
+      const auto& [a, b, c] = faces_[f];
+      // About a vertex of its own, as the model may lie far from the origin.
+      const Vec3& origin = positions_[faces_[solid.faces[0]][0]];
+      const Vec3 normal = (positions_[b] - positions_[a]).cross(positions_[c] - positions_[a]);
+      solid.volume += normal.dot(positions_[a] - origin) / 6;
+      solid.area += normal.norm() / 2;
+      for (const Index v : faces_[f]) solid.box.extend(positions_[v]);
+    }
+  }
+
+  /// On faces of what looks inwards, and off their corners and edges, which may lie above others'.
+  void place_points() {
+    for (std::size_t c = 0; c < solids_.size(); ++c) {
+      const Solid& solid = solids_[c];
+      if (!solid.looks_inwards()) continue;
+      const std::size_t count = std::min(kPoints, solid.faces.size());
+      for (std::size_t i = 0; i < count; ++i) {
+        const auto& [p, q, r] = faces_[solid.faces[i * solid.faces.size() / count]];
+        points_.push_back({0.4142 * positions_[p] + 0.3141 * positions_[q] + 0.2717 * positions_[r],
+                           static_cast<Index>(c)});
+      }
+    }
+    std::sort(points_.begin(), points_.end(), [](const Point& a, const Point& b) {
+      return a.at.x() != b.at.x() ? a.at.x() < b.at.x() : a.component < b.component;
+    });
+  }
+
+  /// Whether a point is left of the edge from a to b, seen from above, alike for both its faces.
+  [[nodiscard]] bool is_left(Index a, Index b, const Vec3& p) const {
+    const Vec3 along = positions_[std::max(a, b)] - positions_[std::min(a, b)];
+    const Vec3 to = p - positions_[std::min(a, b)];
+    return (along.x() * to.y() - along.y() * to.x() > 0) == (a < b);
+  }
+
+  /// Counts a face for the points below it.
+  void cross(std::size_t f) {
+    const auto& [a, b, c] = faces_[f];
+    Eigen::AlignedBox3d box;
+    for (const Index v : faces_[f]) box.extend(positions_[v]);
+    const auto before = [](const Point& point, double x) { return point.at.x() < x; };
+    for (auto point = std::lower_bound(points_.begin(), points_.end(), box.min().x(), before);
+         point != points_.end() && point->at.x() <= box.max().x(); ++point) {
+      const Vec3& p = point->at;
+      if (point->component == component_[f] || p.y() < box.min().y() || p.y() > box.max().y()) {
+        continue;
+      }
+      const bool left = is_left(a, b, p);
+      if (is_left(b, c, p) != left || is_left(c, a, p) != left) continue;
+      const Vec3 normal = (positions_[b] - positions_[a]).cross(positions_[c] - positions_[a]);
+      const bool is_above = (normal.dot(positions_[a] - p) > 0) == (normal.z() > 0);
+      if (is_above) point->winding += left ? 1 : -1;
+    }
+  }
+
+  std::span<const Vec3> positions_;
+  std::span<const std::array<Index, 3>> faces_;
+  std::span<const Index> component_;
+  std::span<const std::uint8_t> is_closed_;
+  std::vector<Solid> solids_;  ///< [components]
+  std::vector<Point> points_;  ///< by x
+};
+
+}  // namespace
+
+ClosedComponents judge_closed_components(std::span<const Vec3> positions,
+                                         std::span<const std::array<Index, 3>> faces,
+                                         std::span<const Index> component,
+                                         std::span<const std::uint8_t> is_closed) {
+  return Judge(positions, faces, component, is_closed).run();
+}
+
+ClosedComponents judge_closed_components(const TriMesh& mesh) {
+  const std::vector<Index> component = face_components(mesh);
+  const Index count =
+      component.empty() ? 0 : 1 + *std::max_element(component.begin(), component.end());
+  std::vector<std::uint8_t> is_closed(count, 1);
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    if (mesh.is_boundary(h)) is_closed[component[TriMesh::face_of(h)]] = 0;
+  }
+  return judge_closed_components(mesh.positions, mesh.faces, component, is_closed);
+}
+
+}  // namespace strake

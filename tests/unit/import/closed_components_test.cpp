@@ -1,0 +1,110 @@
+#include "common/geometry/topology/closed_components.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <initializer_list>
+#include <string>
+
+#include "common/geometry/poly_topology/poly_topology.h"
+#include "tests/support/mesh_support.h"
+#include "tests/unit/import/shapes.h"
+
+namespace strake {
+namespace {
+
+/// A cube around `middle` of this half side; a negative one looks inwards.
+PolyMesh box(const Vec3& middle, double half) {
+  PolyMesh cube = shapes::cube(Vec3::Constant(-0.5));
+  for (Vec3& p : cube.positions) p = middle + 2 * std::abs(half) * p;
+  return half > 0 ? cube : shapes::turned(cube, [](Index) { return true; });
+}
+
+PolyMesh all_of(std::initializer_list<PolyMesh> parts) {
+  PolyMesh mesh;
+  for (const PolyMesh& part : parts) mesh = support::together(mesh, part);
+  return mesh;
+}
+
+/// Judges a mesh as it is, and turned and far away, before and after import.
+void expect_judged(const PolyMesh& mesh, Index inside_out, Index cavities) {
+  const PolyMesh far =
+      support::transformed(mesh, 1e-2 * support::oblique_rotation(), Vec3(1e3, -2e3, 500));
+  for (const PolyMesh* each : {&mesh, &far}) {
+    const ClosedComponents read = judge_closed_components(*each);
+    const ClosedComponents made = judge_closed_components(shapes::imported(*each).mesh);
+    for (const ClosedComponents& closed : {read, made}) {
+      EXPECT_EQ(closed.count, analyse(mesh).components);
+      EXPECT_EQ(closed.inside_out, inside_out);
+      EXPECT_EQ(closed.cavities, cavities);
+    }
+  }
+}
+
+const Vec3 kOrigin = Vec3::Zero();
+const Vec3 kAside = Vec3(10, 1, 2);
+
+TEST(ClosedComponents, EachIsJudgedByItself) {
+  expect_judged(box(kOrigin, 1), 0, 0);
+  expect_judged(box(kOrigin, -1), 1, 0);
+  expect_judged(all_of({box(kOrigin, 3), box(kAside, -1)}), 1, 0);
+  expect_judged(all_of({box(kOrigin, 1), box(kAside, -3)}), 1, 0);
+  expect_judged(all_of({box(kOrigin, -1), box(kAside, -1)}), 2, 0);
+}
+
+TEST(ClosedComponents, CavitiesLieInsideWhatLooksOutwards) {
+  expect_judged(all_of({box(kOrigin, 3), box(kOrigin, -1)}), 0, 1);
+  expect_judged(all_of({box(kOrigin, 3), box(kOrigin, 1)}), 0, 0);
+  expect_judged(all_of({box(kOrigin, -3), box(kOrigin, -1)}), 2, 0);
+  expect_judged(all_of({box(kOrigin, -3), box(kOrigin, 1)}), 1, 0);
+  // What stands inside a cavity is a solid again.
+  expect_judged(all_of({box(kOrigin, 4), box(kOrigin, -3), box(kOrigin, 1)}), 0, 1);
+  expect_judged(all_of({box(kOrigin, 4), box(kOrigin, -3), box(kOrigin, -1)}), 1, 1);
+  // Inside in part, or above and below: none.
+  expect_judged(all_of({box(kOrigin, 3), box(Vec3(3, 0.1, 0.2), -1)}), 1, 0);
+  expect_judged(all_of({box(kOrigin, 1), box(Vec3(0.1, 0.2, 5), -3)}), 1, 0);
+  expect_judged(all_of({box(kOrigin, 1), box(Vec3(0.1, 0.2, -5), -3)}), 1, 0);
+}
+
+TEST(ClosedComponents, OpenAndFlatOnesAreNotJudged) {
+  const PolyMesh sheet = shapes::grid(2, 2, [](double, double) { return 0.0; });
+  const PolyMesh turned = shapes::turned(sheet, [](Index) { return true; });
+  EXPECT_EQ(judge_closed_components(turned).count, 0);
+  // Both sides of a sheet, joined at the rim and with inner vertices of their own.
+  const TriMesh flat =
+      shapes::imported(support::transformed(
+                           shapes::polygons({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0),
+                                             Vec3(0, 1, 0), Vec3(0.4, 0.5, 0), Vec3(0.6, 0.5, 0)},
+                                            {{0, 1, 4},
+                                             {1, 2, 4},
+                                             {2, 3, 4},
+                                             {3, 0, 4},
+                                             {1, 0, 5},
+                                             {2, 1, 5},
+                                             {3, 2, 5},
+                                             {0, 3, 5}}),
+                           support::oblique_rotation(), Vec3(1, 2, 3)))
+          .mesh;
+  const ClosedComponents closed = judge_closed_components(flat);
+  EXPECT_EQ(closed.count, 1);
+  EXPECT_EQ(closed.inside_out, 0);
+}
+
+TEST(ClosedComponents, ImportSaysHowManyAreInsideOut) {
+  const auto warning_of = [](const PolyMesh& mesh) -> std::string {
+    const ImportResult result = shapes::imported(mesh);
+    for (const std::string& warning : result.report.warnings()) {
+      if (warning.find("inside out") != std::string::npos) return warning;
+    }
+    return "";
+  };
+  const PolyMesh open = support::transformed(shapes::grid(2, 2, [](double, double) { return 0.0; }),
+                                             Mat3::Identity(), Vec3(20, 0, 0));
+  EXPECT_EQ(warning_of(all_of({box(kOrigin, 3), box(kOrigin, -1), open})), "");
+  EXPECT_TRUE(warning_of(box(kOrigin, -1)).starts_with("the surface is inside out"));
+  EXPECT_TRUE(warning_of(all_of({box(kOrigin, 3), box(kAside, -1), open}))
+                  .starts_with("1 of 3 components are inside out"));
+}
+
+}  // namespace
+}  // namespace strake
