@@ -53,7 +53,7 @@ void require_density_of_input(const Session& session) {
 
 void warn_of_crossing(Session& session, const std::string& port) {
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
-  const std::size_t faces = crossing.faces_of(session.get<QuadMesh>(port).mesh).size();
+  const std::size_t faces = crossing.of(session.get<QuadMesh>(port).mesh).size();
   if (faces == 0) return;
   session.say(fmt::format(
       "warning: {} face(s) of the result cross others where the input does not (those where it "

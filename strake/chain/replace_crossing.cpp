@@ -14,6 +14,20 @@ namespace {
 constexpr std::size_t kMostReplaced = 1000;
 constexpr double kMostReplacedShare = 0.05;
 
+/// Share of all faces that may touch others for these to be replaced where none crosses. Of about
+/// as many faces no quads come, which is seen along an edge; that it is divided differently in two
+/// sheets is not.
+constexpr double kMostTouchingShare = 0.01;
+
+/// Whether fewer faces cross, or as many and none touches any more: sheets that are divided alike
+/// in parts of an edge cannot be joined there either.
+bool is_better(const MeetingFaces& left, const MeetingFaces& before) {
+  if (left.crossing.size() != before.crossing.size()) {
+    return left.crossing.size() < before.crossing.size();
+  }
+  return left.all.size() < before.all.size() && left.all.size() == left.crossing.size();
+}
+
 }  // namespace
 
 bool only_quads(const GoalStages& stages) {
@@ -22,11 +36,13 @@ bool only_quads(const GoalStages& stages) {
 
 std::vector<Vec3> replace_crossing(Session& session, const GoalStages& stages, const LineAim& aim,
                                    CrossingPlaces& crossing) {
-  const PolyMesh& faces = session.get<QuadMesh>("fitted").mesh;
-  std::vector<Vec3> places = crossing.of(faces);
-  if (places.empty() || only_quads(stages)) return places;
-  const double share = static_cast<double>(places.size()) / faces.face_count();
-  if (places.size() > kMostReplaced || share > kMostReplacedShare) return places;
+  const PolyMesh& before = session.get<QuadMesh>("fitted").mesh;
+  const MeetingFaces met = crossing.meeting(before);
+  std::vector<Vec3> places = crossing.middles(before, met.crossing);
+  if (met.all.empty() || only_quads(stages)) return places;
+  const double share = static_cast<double>(met.all.size()) / before.face_count();
+  const double most = met.crossing.empty() ? kMostTouchingShare : kMostReplacedShare;
+  if (met.all.size() > kMostReplaced || share > most) return places;
   if (crossing.is_stacked()) return places;
   Session tried = session;
   try {
@@ -35,12 +51,14 @@ std::vector<Vec3> replace_crossing(Session& session, const GoalStages& stages, c
     session.say(std::string("warning: kept faces that cross: ") + error.what());
     return places;
   }
-  std::vector<Vec3> left = crossing.of(tried.get<QuadMesh>("uncrossed").mesh);
+  const PolyMesh& after = tried.get<QuadMesh>("uncrossed").mesh;
+  const MeetingFaces left = crossing.meeting(after);
   const double miss = aim.miss(count_of(tried, "uncrossed", aim.counted));
-  const double before = aim.miss(count_of(session, "fitted", aim.counted));
-  if (left.size() >= places.size() || miss > std::max(before, kCountTolerance)) return places;
+  const double miss_before = aim.miss(count_of(session, "fitted", aim.counted));
+  if (!is_better(left, met) || miss > std::max(miss_before, kCountTolerance)) return places;
+  places = crossing.middles(after, left.crossing);
   session = tried;
-  return left;
+  return places;
 }
 
 }  // namespace strake

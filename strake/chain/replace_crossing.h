@@ -13,7 +13,8 @@ namespace strake {
 /// Whether every face must stay a quad, so that cells cannot be changed one by one.
 bool only_quads(const GoalStages& stages);
 
-/// Takes the input's own faces where faces cross, as long as the count allows it.
+/// Takes the input's own faces where faces cross, or few of them touch, as long as the count allows
+/// it.
 /// \return places where faces still cross \pre fitted
 std::vector<Vec3> replace_crossing(Session& session, const GoalStages& stages, const LineAim& aim,
                                    CrossingPlaces& crossing);

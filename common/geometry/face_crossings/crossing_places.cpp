@@ -9,6 +9,8 @@
 
 #include "common/geometry/face_crossings/box_tree.h"
 #include "common/geometry/face_crossings/face_crossings.h"
+#include "common/geometry/face_crossings/penetration.h"
+#include "common/geometry/face_crossings/placed_face.h"
 #include "common/geometry/poly_topology/face_shape.h"
 
 namespace strake {
@@ -20,6 +22,13 @@ constexpr std::size_t kMostLooks = 8;
 /// Half the side of such a box over the reach of its place: faces that are asked for later are
 /// often smaller, and beside it.
 constexpr double kLookedInto = 3;
+/// Share of the diagonal within which something is on an edge that sheets of the input share: what
+/// files of single precision leave of a common edge is less, and nobody sees it.
+constexpr double kOnEdge = 1e-6;
+/// Share of an edge along those up to which faces touch that pass through each other: chords of a
+/// curve that is divided differently in two sheets are apart by as much where cells turn by a
+/// radian. Elsewhere what touches is tangled, as where lines are farther apart than a rod is thick.
+constexpr double kTouchingShare = 0.125;
 
 BoxTree::Box box_around(const Vec3& middle, double half) {
   return {middle.array() - half, middle.array() + half};
@@ -61,7 +70,7 @@ CrossingPlaces::Place CrossingPlaces::place_of(const PolyMesh& result, Index fac
   return {middle - mesh_.origin, reach};
 }
 
-std::vector<Index> CrossingPlaces::faces_of(const PolyMesh& result) {
+MeetingFaces CrossingPlaces::meeting(const PolyMesh& result) {
   const auto pairs = find_crossing_faces(result.positions, triangulate_faces(result));
   is_stacked_ = pairs.size() > static_cast<std::size_t>(result.face_count());
   std::set<Index> crossed;
@@ -75,19 +84,22 @@ std::vector<Index> CrossingPlaces::faces_of(const PolyMesh& result) {
   tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t i) {
     is_own[faces[i]] = is_crossed_by_itself(places[i]) ? 1 : 0;
   });
+  std::set<Index> met;
   crossed.clear();
   for (const auto& pair : pairs) {
-    if (std::ranges::none_of(pair, [&](Index f) { return is_own[f] != 0; })) {
-      crossed.insert(pair.begin(), pair.end());
-    }
+    if (std::ranges::any_of(pair, [&](Index f) { return is_own[f] != 0; })) continue;
+    met.insert(pair.begin(), pair.end());
+    if (std::ranges::all_of(pair, [&](Index f) { return crossed.contains(f); })) continue;
+    if (!do_touch(result, pair[0], pair[1])) crossed.insert(pair.begin(), pair.end());
   }
-  return {crossed.begin(), crossed.end()};
+  return {{met.begin(), met.end()}, {crossed.begin(), crossed.end()}};
 }
 
-std::vector<Vec3> CrossingPlaces::of(const PolyMesh& result) {
-  std::vector<Vec3> middles;
-  for (const Index f : faces_of(result)) middles.push_back(place_of(result, f).middle);
-  return middles;
+std::vector<Vec3> CrossingPlaces::middles(const PolyMesh& result,
+                                          const std::vector<Index>& faces) const {
+  std::vector<Vec3> places;
+  for (const Index f : faces) places.push_back(place_of(result, f).middle);
+  return places;
 }
 
 bool CrossingPlaces::is_looked_at(const Place& place) const {
@@ -139,6 +151,33 @@ void CrossingPlaces::look_around(const std::vector<Place>& places) {
 
 bool CrossingPlaces::is_crossed_by_itself(const Place& place) const {
   return own_ != nullptr && own_->closest_within(place.middle, place.reach).triangle != kNone;
+}
+
+bool CrossingPlaces::do_touch(const PolyMesh& result, Index face, Index other) {
+  if (!shared_) shared_ = std::make_unique<SharedEdges>(mesh_, kOnEdge * mesh_.diagonal);
+  if (!shared_->any()) return false;
+  const PlacedFace one = placed_face(result.positions, result.face(face));
+  const PlacedFace two = placed_face(result.positions, result.face(other));
+  const double depth = penetration_depth(one, two);
+  const BoxTree::Box common = one.box.intersection(two.box).translated(-mesh_.origin);
+  if (depth <= kOnEdge * mesh_.diagonal && shared_->are_near(common)) return true;
+  return touches_along_shared(result, face, two, depth) ||
+         touches_along_shared(result, other, one, depth);
+}
+
+bool CrossingPlaces::touches_along_shared(const PolyMesh& result, Index face,
+                                          const PlacedFace& other, double depth) const {
+  const std::span<const Index> corners = result.face(face);
+  const auto is_on = [&](const Vec3& p) { return shared_->hold(p - mesh_.origin); };
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec3& a = result.positions[corners[i]];
+    const Vec3& b = result.positions[corners[(i + 1) % corners.size()]];
+    const double most = kTouchingShare * (b - a).norm();
+    const BoxTree::Box edge = BoxTree::Box(a).extend(b);
+    const BoxTree::Box reach(edge.min().array() - most, edge.max().array() + most);
+    if (depth <= most && other.box.intersects(reach) && is_on(a) && is_on(b)) return true;
+  }
+  return false;
 }
 
 }  // namespace strake

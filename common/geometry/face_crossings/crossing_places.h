@@ -8,9 +8,19 @@
 #include "common/core/poly_mesh.h"
 #include "common/core/tri_mesh.h"
 #include "common/geometry/face_crossings/box_tree.h"
+#include "common/geometry/face_crossings/placed_face.h"
+#include "common/geometry/face_crossings/shared_edges.h"
 #include "common/geometry/surface_distance/surface_distance.h"
 
 namespace strake {
+
+/// Faces of a result that meet others in more than what they share, ascending.
+struct MeetingFaces {
+  std::vector<Index> all;
+  /// Those that pass through others. The rest only touch them, as sheets do that were joined in an
+  /// edge of more than two faces: nobody sees that, but their edges there are divided differently.
+  std::vector<Index> crossing;
+};
 
 /// Finds where faces of results cross although the surface does not.
 class CrossingPlaces {
@@ -18,12 +28,17 @@ class CrossingPlaces {
   /// \param mesh  the input, kept by reference
   explicit CrossingPlaces(const TriMesh& mesh) : mesh_(mesh) {}
 
-  /// The faces that cross others, ascending, but for pairs within reach of which, of either face,
-  /// the input crosses itself.
-  std::vector<Index> faces_of(const PolyMesh& result);
-  /// The middles of these faces, relative to the mesh's origin.
-  std::vector<Vec3> of(const PolyMesh& result);
-  /// Whether the last result has more pairs of faces that cross, whatever the input does, than
+  /// The faces that meet others, but for pairs within reach of which, of either face, the input
+  /// crosses itself.
+  MeetingFaces meeting(const PolyMesh& result);
+  /// All of them.
+  std::vector<Index> faces_of(const PolyMesh& result) { return meeting(result).all; }
+  /// The middles of those that cross others, relative to the mesh's origin.
+  std::vector<Vec3> of(const PolyMesh& result) { return middles(result, meeting(result).crossing); }
+  /// The middles of faces, relative to the mesh's origin.
+  [[nodiscard]] std::vector<Vec3> middles(const PolyMesh& result,
+                                          const std::vector<Index>& faces) const;
+  /// Whether the last result has more pairs of faces that meet, whatever the input does, than
   /// faces: sheets on top of each other, where all that is measured takes many times as long, says
   /// little, and what is put there crosses again.
   [[nodiscard]] bool is_stacked() const { return is_stacked_; }
@@ -47,6 +62,12 @@ class CrossingPlaces {
   void look_around(const std::vector<Place>& places);
   /// Whether the input crosses itself within reach of a place that was looked around.
   [[nodiscard]] bool is_crossed_by_itself(const Place& place) const;
+  /// Whether two faces that meet only touch each other.
+  [[nodiscard]] bool do_touch(const PolyMesh& result, Index face, Index other);
+  /// Whether an edge of the face runs along edges that sheets share, and the other one passes
+  /// through it there by no more than chords of a curve may be apart.
+  [[nodiscard]] bool touches_along_shared(const PolyMesh& result, Index face,
+                                          const PlacedFace& other, double depth) const;
 
   const TriMesh& mesh_;
   bool is_stacked_ = false;
@@ -54,6 +75,7 @@ class CrossingPlaces {
   std::vector<std::uint8_t> is_seen_;           ///< [F] of the input: whether it crosses is known
   std::vector<std::array<Index, 3>> crossing_;  ///< those seen that cross, and what they cross
   std::unique_ptr<SurfaceDistance> own_;        ///< of those; nullptr: none
+  std::unique_ptr<SharedEdges> shared_;         ///< nullptr: not looked for yet
 };
 
 }  // namespace strake

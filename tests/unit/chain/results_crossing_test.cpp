@@ -194,5 +194,58 @@ TEST(Remesh, SaysThatFacesCross) {
   EXPECT_EQ(nothing.find(kWarning), std::string::npos) << nothing;
 }
 
+/// The squares around two cubes that have an edge in common, which is one of four faces.
+PolyMesh cubes_on_an_edge(int n) {
+  const auto is_solid = [&](const std::array<int, 3>& at) {
+    return at[2] >= 0 && at[2] < n && at[0] >= 0 && at[1] >= 0 && at[0] < 2 * n && at[1] < 2 * n &&
+           at[0] / n == at[1] / n;
+  };
+  PolyMesh mesh;
+  std::map<std::array<int, 3>, Index> vertices;
+  const auto add_side = [&](const std::array<int, 3>& cube, int axis, int side) {
+    std::array<Index, 4> face;
+    for (int k = 0; k < 4; ++k) {
+      std::array<int, 3> corner = cube;
+      corner[axis] += side;
+      corner[(axis + 1) % 3] += k == 1 || k == 2 ? 1 : 0;
+      corner[(axis + 2) % 3] += k >= 2 ? 1 : 0;
+      const auto [at, is_new] = vertices.try_emplace(corner, mesh.vertex_count());
+      if (is_new) mesh.positions.emplace_back(corner[0], corner[1], corner[2]);
+      face[side == 1 ? k : 3 - k] = at->second;
+    }
+    mesh.add_face(face);
+  };
+  for (int i = 0; i < 4 * n * n * n; ++i) {
+    const std::array<int, 3> cube = {i % (2 * n), i / (2 * n) % (2 * n), i / (4 * n * n)};
+    if (!is_solid(cube)) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const int side : {0, 1}) {
+        std::array<int, 3> beside = cube;
+        beside[axis] += 2 * side - 1;
+        if (!is_solid(beside)) add_side(cube, axis, side);
+      }
+    }
+  }
+  return mesh;
+}
+
+// Their cells meet along the edge as they are divided differently, which is no fault of the lines.
+TEST(Remesh, SolidsThatTouchKeepTheirLines) {
+  for (const std::int64_t vertices : {500, 2000}) {
+    RemeshOptions options;
+    options.trace.vertices = vertices;
+    options.measure = false;
+    Listener listener;
+    const PolyMesh result =
+        remesh({cubes_on_an_edge(10), {}, {}, {}}, options, listener).quads.mesh;
+    EXPECT_EQ(listener.said.find("cross others"), std::string::npos) << listener.said;
+    EXPECT_EQ(listener.said.find("faces cross"), std::string::npos) << listener.said;
+    EXPECT_EQ(listener.said.find("decimat"), std::string::npos) << listener.said;
+    // All but a few cells in the eight corners of each cube, and where a line ends.
+    const auto quads = static_cast<double>(analyse(result).quads);
+    EXPECT_GT(quads, 0.97 * result.face_count()) << vertices;
+  }
+}
+
 }  // namespace
 }  // namespace strake

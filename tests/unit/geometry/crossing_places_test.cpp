@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
 
 #include "tests/support/mesh_support.h"
 
@@ -109,6 +112,61 @@ TEST(CrossingPlaces, AreTheSameHoweverManyWereAskedForBefore) {
           << "place " << i << ", round " << round;
     }
   }
+}
+
+// Where the input has no edges that sheets share cells that touch are tangled.
+TEST(CrossingPlaces, AreWhereFacesTouchThatDoNotInTheInput) {
+  const TriMesh surface = triangles_of(two_squares(Vec3::Zero(), 0.1));
+  EXPECT_EQ(CrossingPlaces(surface).of(two_squares(Vec3::Zero(), 0)).size(), 2u);
+}
+
+/// A strip of so many squares around the z axis, and of so many rings of them.
+/// \param at  place of a corner, by its number around and that of its ring
+PolyMesh closed_strip(Index sides, Index rings, const std::function<Vec3(Index, Index)>& at) {
+  PolyMesh mesh;
+  for (Index k = 0; k <= rings; ++k) {
+    for (Index i = 0; i < sides; ++i) mesh.positions.push_back(at(i, k));
+  }
+  for (Index k = 0; k < rings; ++k) {
+    for (Index i = 0; i < sides; ++i) {
+      const Index next = (i + 1) % sides;
+      mesh.add_face(std::array<Index, 4>{k * sides + i, k * sides + next, (k + 1) * sides + next,
+                                         (k + 1) * sides + i});
+    }
+  }
+  return mesh;
+}
+
+/// A pipe of radius 1, from z = -1 to 1, and a flange around its middle.
+/// \param sides  of both, a divisor of 64
+/// \param turn   of the flange, in 64ths of a full turn
+/// \param inner  radius of the flange
+PolyMesh flanged_pipe(Index sides, Index rings, Index turn, double inner) {
+  constexpr Index kSides = 64;
+  const auto around = [&](Index i, double radius, double z) {
+    const double angle = 2 * std::numbers::pi * (i % kSides) / kSides;
+    return Vec3(radius * std::cos(angle), radius * std::sin(angle), z);
+  };
+  const Index step = kSides / sides;
+  return support::together(
+      closed_strip(sides, rings,
+                   [&](Index i, Index k) { return around(step * i, 1, -1 + 2.0 * k / rings); }),
+      closed_strip(sides, 1, [&](Index i, Index k) {
+        return around(step * i + turn, k == 0 ? inner : 1.5, 0);
+      }));
+}
+
+// Chords of the common circle are apart by 2 % of the radius.
+TEST(CrossingPlaces, AreNotAlongCurvesThatSheetsShare) {
+  const TriMesh surface = triangles_of(flanged_pipe(64, 2, 0, 1));
+  CrossingPlaces crossing(surface);
+  const MeetingFaces touching = crossing.meeting(flanged_pipe(16, 1, 2, 1));
+  EXPECT_FALSE(touching.all.empty());
+  EXPECT_TRUE(touching.crossing.empty());
+  EXPECT_FALSE(crossing.of(flanged_pipe(16, 1, 2, 0.7)).empty());
+  // A flange around a pipe that it does not touch passes through it.
+  const TriMesh loose = triangles_of(flanged_pipe(64, 2, 0, 1.001));
+  EXPECT_FALSE(CrossingPlaces(loose).of(flanged_pipe(16, 1, 2, 1)).empty());
 }
 
 }  // namespace
