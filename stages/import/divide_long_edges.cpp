@@ -14,6 +14,8 @@ namespace {
 
 /// Of the wanted length, below which a face is a needle: no piece of it would be less of one.
 constexpr double kNeedle = 0.005;
+/// Cosine up to which an edge goes on straight from another one: 10 degrees.
+constexpr double kStraightOn = 0.985;
 
 double edge_length(const TriMesh& mesh, Index h) {
   return (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).norm();
@@ -35,7 +37,31 @@ double face_width(const TriMesh& mesh, Index f) {
   return (mesh.positions[b] - p).cross(mesh.positions[c] - p).norm() / longest;
 }
 
-/// Edges that are longer than a length and have a face beside them that is no needle.
+/// Whether a half-edge leaves a corner in the direction in which a feature comes to it.
+bool goes_on_from_feature(const TriMesh& mesh, Index h) {
+  const Index v = mesh.from(h);
+  if (mesh.is_corner[v] == 0) return false;
+  const auto way = [&](Index edge) {
+    return Vec3((mesh.positions[mesh.to(edge)] - mesh.positions[mesh.from(edge)]).normalized());
+  };
+  const Index first = mesh.vertex_out[v];
+  Index out = first;
+  do {
+    if (mesh.is_feature[out] != 0 && way(out).dot(way(h)) < -kStraightOn) return true;
+    out = mesh.rotate_ccw(out);
+  } while (out != kNone && out != first);
+  return false;
+}
+
+/// Whether an edge leads from the end of one feature to that of another one in a row with it.
+bool joins_features_in_a_row(const TriMesh& mesh, Index h) {
+  const Index twin = mesh.twin[h];
+  return twin != kNone && mesh.is_feature[h] == 0 && goes_on_from_feature(mesh, h) &&
+         goes_on_from_feature(mesh, twin);
+}
+
+/// Edges that are longer than a length, or join features in a row, and have a face beside them that
+/// is no needle.
 class LongEdges {
  public:
   LongEdges(const TriMesh& mesh, double length, double least_width)
@@ -45,7 +71,8 @@ class LongEdges {
   template <class Use>
   void for_each(const Use& use) const {
     for (Index h = 0; h < mesh_.halfedge_count(); ++h) {
-      if (mesh_.edge_of(h) == h && edge_length(mesh_, h) > length_ && is_worth(h)) use(h);
+      if (mesh_.edge_of(h) != h || !is_worth(h)) continue;
+      if (edge_length(mesh_, h) > length_ || joins_features_in_a_row(mesh_, h)) use(h);
     }
   }
 
@@ -187,8 +214,9 @@ class FaceDivision {
 
 Index divide_long_edges(TriMesh& mesh, double longest, Index most_vertices) {
   const Index before = mesh.vertex_count();
+  if (longest >= mesh.diagonal) return 0;
   const double halvings = std::ceil(std::log2(longest_edge(mesh) / longest));
-  for (double left = halvings - 1; left >= 0; --left) {
+  for (double left = std::max(0.0, halvings - 1); left >= 0; --left) {
     const double length = longest * std::exp2(left);
     while (true) {  // the edges across a face that is divided may be too long, too
       std::vector<Index> edges;

@@ -58,9 +58,11 @@ void LineWalker::enter(LineHead& head, Index h) {
 /// Prepares to leave the face by half-edge `h`, to which no chord leads from the last point.
 bool LineWalker::turn_back(LineHead& head, Index h, HalfLine& half) {
   half.end = LineEnd::stuck;
-  if (half.points.empty() || domain_.mesh.is_barrier(h)) return false;
+  if (domain_.mesh.is_barrier(h)) return false;
   // From a vertex the chord starts in the next face around it.
-  if (!is_vertex_point(head.last)) take_back(head, 1, half);
+  if (is_vertex_point(head.last)) return true;
+  if (half.points.empty()) return false;
+  take_back(head, 1, half);
   return true;
 }
 

@@ -242,6 +242,9 @@ class SlurmTest:
                                        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
             wait_for("the jobs of the last one", lambda: len(runs_in(folder)) == 4 and self.queue(
                 "--states=PENDING", "--name=" + self.job_name(runs_in(folder)[3], "import")))
+            # An interrupt of what submits would take the jobs back.
+            wait_for("the end of the submission", lambda: subprocess.run(
+                ["pgrep", "-P", str(waiting.pid)], stdout=subprocess.DEVNULL, check=False).returncode)
             waiting.send_signal(signal.SIGINT)
             answer = waiting.communicate(timeout=PATIENCE_SECONDS)[0]
             check(waiting.returncode == 130 and "the jobs go on" in answer, answer)

@@ -77,6 +77,53 @@ TEST(DivideLongEdges, LeavesTheSurfaceAsItIs) {
   }
 }
 
+/// Two blocks in a row on a plane, with an edge from each corner to the nearest one of the other.
+PolyMesh blocks_in_a_row() {
+  const std::vector<double> x = {-1, 0, 1, 1.5, 2.5, 3.5};
+  const std::vector<double> y = {-1, 0, 1, 2};
+  std::vector<Vec3> positions;
+  std::vector<std::vector<Index>> faces;
+  const auto columns = static_cast<Index>(x.size());
+  for (const double z : {0.0, 1.0}) {
+    for (const double v : y) {
+      for (const double u : x) positions.emplace_back(u, v, z);
+    }
+  }
+  const auto level = static_cast<Index>(x.size() * y.size());
+  const auto add = [&](Index a, Index b, Index c, Index d) {
+    faces.push_back({a, b, c});
+    faces.push_back({a, c, d});
+  };
+  for (Index j = 0; j + 1 < static_cast<Index>(y.size()); ++j) {
+    for (Index i = 0; i + 1 < columns; ++i) {
+      const Index a = j * columns + i;
+      const std::array<Index, 4> around = {a, a + 1, a + columns + 1, a + columns};
+      const bool is_block = j == 1 && (i == 1 || i == 3);
+      const Index up = is_block ? level : 0;
+      add(around[0] + up, around[1] + up, around[2] + up, around[3] + up);
+      for (std::size_t k = 0; is_block && k < 4; ++k) {
+        const Index from = around[k];
+        const Index to = around[(k + 1) % 4];
+        add(from, to, to + level, from + level);
+      }
+    }
+  }
+  return shapes::polygons(positions, faces);
+}
+
+TEST(DivideLongEdges, LeavesNoEdgeBetweenFeaturesInARow) {
+  const TriMesh undivided = divided(blocks_in_a_row(), 100).mesh;
+  const TriMesh mesh = divided(blocks_in_a_row(), 60).mesh;
+  std::vector<std::pair<double, double>> added;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const Vec3 p = mesh.positions[v] + mesh.origin;
+    if (mesh.source_vertex[v] == kNone) added.emplace_back(p.x(), p.y());
+  }
+  std::ranges::sort(added);
+  EXPECT_EQ(added, (std::vector<std::pair<double, double>>{{1.25, 0}, {1.25, 1}}));
+  EXPECT_EQ(mesh.vertex_count(), undivided.vertex_count() + 2);
+}
+
 TEST(DivideLongEdges, ChangesNothingWhereNoneIsLong) {
   const PolyMesh torus = shapes::torus(60, 30);
   const ImportResult result = divided(torus, 10);

@@ -314,15 +314,17 @@ TEST(LineTracer, ClosesRingsAroundThinTubes) {
   }
 }
 
-/// A plane of jittered triangles, and a feature along the x axis with a gap from -`half_gap` to it.
+/// A plane of triangles, and a feature along an axis with a gap from -`half_gap` to it.
 class FeaturesInARow {
  public:
-  explicit FeaturesInARow(double half_gap) {
+  /// \param roughness  by which vertices are off a grid, in its steps; at 0 the gap has edges along
+  /// it \param turn  of the axis, radians: else what lies on an edge does so exactly
+  FeaturesInARow(double half_gap, double roughness, double turn) {
     constexpr Index kSide = 21;
     constexpr double kStep = 0.1;
     PolyMesh soup;
     std::mt19937 random(5);
-    std::uniform_real_distribution<double> jitter(-0.3 * kStep, 0.3 * kStep);
+    std::uniform_real_distribution<double> jitter(-roughness * kStep, roughness * kStep);
     for (Index j = 0; j < kSide; ++j) {
       for (Index i = 0; i < kSide; ++i) {
         const double x = kStep * (i - kSide / 2);
@@ -364,36 +366,59 @@ class FeaturesInARow {
         start.face = TriMesh::face_of(h);
       }
     }
-    start.direction = ahead;
+    const Eigen::AngleAxisd turned(turn, Vec3::UnitZ());
+    for (Vec3& p : mesh.positions) p = turned * p;
+    start.direction = turned * ahead;
+    axis = turned * Vec3::UnitX();
   }
 
   TriMesh mesh;
   std::vector<std::uint8_t> barriers;
   Index right = kNone;  ///< the corner on the right of the gap
   Seed start;           ///< at the left one
+  Vec3 axis;
 };
+
+/// The line that starts at the corner left of the gap, where others would be so far apart.
+TracedLine line_over_the_gap(const FeaturesInARow& row, double distance) {
+  const PrincipalField field = field_along(row.mesh, [&](const Vec3&) { return row.axis; });
+  Spacing spacing;
+  spacing.along.assign(row.mesh.wedge_count(), distance);
+  spacing.across.assign(row.mesh.wedge_count(), distance);
+  const TraceDomain domain{row.mesh, field, spacing, FaceNormals(row.mesh)};
+  const LineDraft draft = Lines(domain, row.barriers).trace(row.start);
+  EXPECT_TRUE(draft.is_line);
+  for (std::size_t i = 1; i < draft.line.points.size(); ++i) {
+    EXPECT_TRUE(is_proper_chord(row.mesh, draft.line.chord_face[i - 1], draft.line.points[i - 1],
+                                draft.line.points[i]));
+  }
+  return draft.line;
+}
 
 // A feature straight ahead is alike, but a line that leads to its end is no line beside it.
 TEST(LineTracer, MeetsTheCornerAheadOfIt) {
   for (const double half_gap : {0.2, 0.3, 0.5}) {
-    const FeaturesInARow row(half_gap);
-    const PrincipalField field = field_along(row.mesh, [](const Vec3&) { return Vec3::UnitX(); });
+    const FeaturesInARow row(half_gap, 0.3, 0);
     for (const double distance : {0.3, 0.6, 1.2}) {
-      Spacing spacing;
-      spacing.along.assign(row.mesh.wedge_count(), distance);
-      spacing.across.assign(row.mesh.wedge_count(), distance);
-      const TraceDomain domain{row.mesh, field, spacing, FaceNormals(row.mesh)};
-      const LineDraft draft = Lines(domain, row.barriers).trace(row.start);
       SCOPED_TRACE(testing::Message() << "gap " << 2 * half_gap << ", lines " << distance);
-      ASSERT_TRUE(draft.is_line);
-      const LinePoint& end = draft.line.points.back();
+      const LinePoint end = line_over_the_gap(row, distance).points.back();
       EXPECT_TRUE(is_vertex_point(end));
       EXPECT_EQ(row.mesh.from(end.halfedge), row.right);
-      for (std::size_t i = 1; i < draft.line.points.size(); ++i) {
-        EXPECT_TRUE(is_proper_chord(row.mesh, draft.line.chord_face[i - 1],
-                                    draft.line.points[i - 1], draft.line.points[i]));
-      }
     }
+  }
+}
+
+// As between windows in a row: rounding has the line leave its first face by that edge.
+TEST(LineTracer, LeavesACornerAlongAnEdge) {
+  for (const double turn : {0.0, 0.1, 0.4, 1.0, 2.0}) {
+    const FeaturesInARow row(0.5, 0, turn);
+    const TracedLine line = line_over_the_gap(row, 0.3);
+    ASSERT_FALSE(line.points.empty());
+    EXPECT_GT((line_point_position(row.mesh, line.points.back()) -
+               line_point_position(row.mesh, line.points.front()))
+                  .norm(),
+              0.7)
+        << "turned by " << turn;
   }
 }
 
