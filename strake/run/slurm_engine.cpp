@@ -108,6 +108,7 @@ std::size_t cancel_superseded(const std::vector<QueuedTask>& queue, const Store&
 std::vector<std::string> submit_to_slurm(const fs::path& scripts) {
   const Answer answer = ask({(scripts / kSubmitScript).string()});
   if (answer.exit_code != 0) {
+    if (interrupt_requested()) throw Interrupted();  // the script has taken its jobs back
     throw InputError(
         fmt::format("sbatch refused a job (exit code {}): {}", answer.exit_code, answer.text()));
   }
