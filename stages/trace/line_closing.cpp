@@ -108,16 +108,15 @@ std::optional<StraightWay> way_home(const TraceDomain& domain, const LineHead& h
                       });
 }
 
-/// Takes back what does not stay, and goes the way. \return the head at its end
-LineHead go(const TraceDomain& domain, LineWalker& walker, const LineHead& head,
-            const StraightWay& way, HalfLine& half) {
+/// Takes back what does not stay, and goes the way.
+void go(const TraceDomain& domain, LineWalker& walker, const LineHead& head, const StraightWay& way,
+        HalfLine& half) {
   LineHead end = head;
   walker.take_back(end, half.points.size() - way.kept, half);
   for (const Chord& chord : way.chords) {
     end.arc += (line_point_position(domain.mesh, chord.to) - end.last_position).norm();
     walker.record(end, chord, half);
   }
-  return end;
 }
 
 }  // namespace

@@ -147,8 +147,8 @@ void LineTracer::trace_half(LineHead head, bool may_close, double stop_fraction,
     const LocalSpacing spacing = spacing_at(domain_, head);
     const ProximityQuery query = query_at(head, stop_fraction, spacing);
     const ProximityHit hit = proximity_.query(query);
-    const bool is_at_barrier = hit.conflict ? hit.line == kNone : query.ignore_barriers;
-    if (is_at_barrier && head.arc > 0 && meets_corner(head, query, half)) return;
+    const bool may_meet_corner = hit.conflict ? hit.line == kNone : query.ignore_barriers;
+    if (may_meet_corner && head.arc > 0 && meets_corner(head, query, half)) return;
     is_away = is_away || query.direction.dot(half.seed_direction) < kTurnedRound;
     const bool may_be_back = is_away || can_close(head, spacing);
     if (may_be_back && closes(kCloseCosine)) return;
