@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <memory>
 #include <new>
@@ -55,22 +56,23 @@ ClosestPoint closest_on_thin_triangle(const Vec3& p, const Vec3& a, const Vec3& 
   return best;
 }
 
-/// What rounding may take from the distance to a triangle, as a share of how far its box reaches
-/// from the point.
-constexpr double kRounding = 1e-14;
+/// A place in the hierarchy's frame; the fourth is 0. So all of it goes through the processor at once.
+using Place = Eigen::Array4f;
+constexpr int kPlaceSize = 4;
 
-/// Whether the box around a triangle is farther than a distance, which costs a fraction of looking
-/// for its nearest point.
-bool is_box_beyond(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c, double distance) {
-  const Vec3 below = a.cwiseMin(b).cwiseMin(c) - p;
-  const Vec3 above = p - a.cwiseMax(b).cwiseMax(c);
-  const double allowed = distance - kRounding * std::min(below.minCoeff(), above.minCoeff());
-  return below.cwiseMax(above).cwiseMax(0.0).squaredNorm() > allowed * allowed;
+/// Whether the box around a triangle is beyond the radius of a query, which costs a fraction of
+/// looking for its nearest point.
+bool is_box_beyond(const RTCPointQuery& query, const Place& a, const Place& b, const Place& c) {
+  const Place at(query.x, query.y, query.z, 0);
+  const Place below = a.min(b).min(c) - at;
+  const Place above = at - a.max(b).max(c);
+  return below.max(above).max(0.0F).square().sum() > query.radius * query.radius;
 }
 
 /// What a query carries through the hierarchy.
 struct Search {
   const SurfaceDistance* surface;
+  const float* places;  ///< [V][kPlaceSize]
   const std::function<bool(Index)>* accept;
   Vec3 point;
   double scale;
@@ -81,14 +83,16 @@ struct Search {
 bool visit_triangle(RTCPointQueryFunctionArguments* arguments) {
   auto& search = *static_cast<Search*>(arguments->userPtr);
   const auto triangle = static_cast<Index>(arguments->primID);
-  const auto& corners = search.surface->triangles()[triangle];
-  const auto& positions = search.surface->positions();
-  const Vec3& a = positions[corners[0]];
-  const Vec3& b = positions[corners[1]];
-  const Vec3& c = positions[corners[2]];
-  if (is_box_beyond(search.point, a, b, c, search.best.distance)) return false;
+  if (triangle == search.best.triangle) return false;
+  const auto& [a, b, c] = search.surface->triangles()[triangle];
+  const auto place = [&search](Index v) {
+    return Eigen::Map<const Place, Eigen::Aligned16>(search.places + kPlaceSize * std::ptrdiff_t{v});
+  };
+  if (is_box_beyond(*arguments->query, place(a), place(b), place(c))) return false;
   if (search.accept != nullptr && !(*search.accept)(triangle)) return false;
-  ClosestPoint found = closest_point_on_triangle(search.point, a, b, c);
+  const auto& positions = search.surface->positions();
+  ClosestPoint found =
+      closest_point_on_triangle(search.point, positions[a], positions[b], positions[c]);
   found.triangle = triangle;
   const bool is_nearer = found.distance < search.best.distance ||
                          (found.distance == search.best.distance &&
@@ -104,9 +108,10 @@ bool visit_triangle(RTCPointQueryFunctionArguments* arguments) {
 
 struct SurfaceDistance::Hierarchy {
   RTCDevice device;
-  RTCScene scene;
+  RTCScene scene = nullptr;
+  const float* places = nullptr;  ///< [V][kPlaceSize], in the scene
 
-  Hierarchy() : device(rtcNewDevice(nullptr)), scene(nullptr) {
+  Hierarchy() : device(rtcNewDevice(nullptr)) {
     if (device == nullptr) fail(rtcGetDeviceError(nullptr));
     scene = rtcNewScene(device);
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_COMPACT);  // less memory, and no slower
@@ -184,16 +189,17 @@ SurfaceDistance::SurfaceDistance(const std::vector<Vec3>& positions, const Trian
   const std::unique_ptr<RTCGeometryTy, decltype(&rtcReleaseGeometry)> owner(
       rtcNewGeometry(hierarchy_->device, RTC_GEOMETRY_TYPE_TRIANGLE), rtcReleaseGeometry);
   RTCGeometry geometry = owner.get();
-  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                               RTC_FORMAT_FLOAT3, 3 * sizeof(float),
-                                                               positions_.size()));
-  if (vertices == nullptr) Hierarchy::fail(RTC_ERROR_OUT_OF_MEMORY);
+  auto* places = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+                                                             RTC_FORMAT_FLOAT3, sizeof(Place),
+                                                             positions_.size()));
+  if (places == nullptr) Hierarchy::fail(RTC_ERROR_OUT_OF_MEMORY);
+  hierarchy_->places = places;
   static_assert(sizeof(Triangles::value_type) == 3 * sizeof(unsigned));
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                              triangles_.data(), 0, 3 * sizeof(unsigned), triangles_.size());
   for (std::size_t v = 0; v < positions_.size(); ++v) {
     const Vec3 p = scale_ * (positions_[v] - centre_);
-    for (int k = 0; k < 3; ++k) vertices[3 * v + k] = static_cast<float>(p[k]);
+    Eigen::Map<Place, Eigen::Aligned16>(places + kPlaceSize * v) << p.cast<float>().array(), 0.0F;
   }
   rtcSetGeometryPointQueryFunction(geometry, visit_triangle);
   rtcCommitGeometry(geometry);
@@ -229,7 +235,7 @@ ClosestPoint SurfaceDistance::closest_if(const Vec3& p, double reach,
 ClosestPoint SurfaceDistance::query(const Vec3& p, const ClosestPoint& best,
                                     const std::function<bool(Index)>* accept) const {
   const Vec3 local = scale_ * (p - centre_);
-  Search search{this, accept, p, scale_, 0, best};
+  Search search{this, hierarchy_->places, accept, p, scale_, 0, best};
   search.margin = kFloatMargin * std::max(1.0, local.cwiseAbs().maxCoeff());
 
   RTCPointQuery query = {};
