@@ -206,16 +206,6 @@ class FlatFaceRemover {
   std::vector<std::uint8_t> removed_;
 };
 
-}  // namespace
-
-void remove_flat_faces(Soup& soup, std::vector<Index> twin, double diagonal, Repairs& repairs) {
-  FlatFaceRemover remover(soup, twin, diagonal, repairs);
-  remover.run();
-  remove_faces(soup, remover.removed());
-}
-
-namespace {
-
 /// [V] 1 at the first vertex of pieces that share a source vertex with another one.
 std::vector<std::uint8_t> find_cut_off(const Soup& soup, DisjointSets& pieces) {
   const Index sources = 1 + *std::max_element(soup.source_vertex.begin(), soup.source_vertex.end());
@@ -236,6 +226,12 @@ std::vector<std::uint8_t> find_cut_off(const Soup& soup, DisjointSets& pieces) {
 }
 
 }  // namespace
+
+void remove_flat_faces(Soup& soup, std::vector<Index> twin, double diagonal, Repairs& repairs) {
+  FlatFaceRemover remover(soup, twin, diagonal, repairs);
+  remover.run();
+  remove_faces(soup, remover.removed());
+}
 
 void drop_pieces_without_area(Soup& soup, double diagonal, Repairs& repairs) {
   DisjointSets pieces(soup.vertex_count());

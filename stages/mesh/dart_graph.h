@@ -58,10 +58,28 @@ class DartGraph {
   /// \pre from(dart) != to(dart)
   void contract(Index dart);
 
+  /// Visits the edges that end in nodes of degree one, and what does once they are gone, each from
+  /// its free end. \param remove  (dart from the node before to the free end) -> whether it removed
+  /// that edge; else the next free end follows
+  template <class Remove>
+  void take_back_free_ends(const Remove& remove) const;
+
  private:
   std::vector<Index> next_;
   std::vector<Index> prev_;
   std::vector<Index> origin_;
 };
+
+template <class Remove>
+void DartGraph::take_back_free_ends(const Remove& remove) const {
+  for (Index start = 0; start < dart_count(); ++start) {
+    Index d = start;
+    while (is_alive(d) && next(d) == opposite(d)) {
+      const Index before = prev(d);
+      if (!remove(d) || before == opposite(d)) break;
+      d = before;
+    }
+  }
+}
 
 }  // namespace strake

@@ -230,17 +230,11 @@ void merge_cells(Overlay& overlay) {
 
 /// Removes edges that end in nodes of degree one, again and again ([MK04] section 5), but features.
 void prune(Overlay& overlay) {
-  DartGraph& graph = overlay.graph;
-  for (Index start = 0; start < graph.dart_count(); ++start) {
-    Index d = start;
-    while (graph.is_alive(d) && graph.next(d) == DartGraph::opposite(d) &&
-           overlay.kind[DartGraph::edge_of(d)] != EdgeKind::feature) {
-      const Index before = graph.prev(d);
-      graph.remove_edge(d);
-      if (before == DartGraph::opposite(d)) break;
-      d = before;
-    }
-  }
+  overlay.graph.take_back_free_ends([&overlay](Index d) {
+    if (overlay.kind[DartGraph::edge_of(d)] == EdgeKind::feature) return false;
+    overlay.graph.remove_edge(d);
+    return true;
+  });
 }
 
 }  // namespace

@@ -152,20 +152,15 @@ void settle_free_ends(PolygonGraph& graph, SimplifyCounts& counts) {
     }
     return false;
   };
-  for (Index start = 0; start < g.dart_count(); ++start) {
-    Index d = start;
-    while (g.is_alive(d) && g.next(d) == DartGraph::opposite(d)) {
-      const Index before = g.prev(d);
-      if (is_near(d) && can_contract(graph, d)) {
-        graph.contract(d);
-        ++counts.contracted_edges;
-        break;
-      }
-      graph.remove_edge(d);
-      if (before == DartGraph::opposite(d)) break;
-      d = before;
+  g.take_back_free_ends([&](Index d) {
+    if (is_near(d) && can_contract(graph, d)) {
+      graph.contract(d);
+      ++counts.contracted_edges;
+      return false;
     }
-  }
+    graph.remove_edge(d);
+    return true;
+  });
 }
 
 /// Removes the bigons beside an edge that is about to vanish or has vanished.

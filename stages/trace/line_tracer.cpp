@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "common/geometry/line_chord.h"
-#include "stages/trace/line_closing.h"
+#include "stages/trace/line_ends.h"
 #include "stages/trace/line_progress.h"
 
 namespace strake {

@@ -56,7 +56,8 @@ ClosestPoint closest_on_thin_triangle(const Vec3& p, const Vec3& a, const Vec3& 
   return best;
 }
 
-/// A place in the hierarchy's frame; the fourth is 0. So all of it goes through the processor at once.
+/// A place in the hierarchy's frame; the fourth is 0. So all of it goes through the processor at
+/// once.
 using Place = Eigen::Array4f;
 constexpr int kPlaceSize = 4;
 
@@ -86,7 +87,8 @@ bool visit_triangle(RTCPointQueryFunctionArguments* arguments) {
   if (triangle == search.best.triangle) return false;
   const auto& [a, b, c] = search.surface->triangles()[triangle];
   const auto place = [&search](Index v) {
-    return Eigen::Map<const Place, Eigen::Aligned16>(search.places + kPlaceSize * std::ptrdiff_t{v});
+    return Eigen::Map<const Place, Eigen::Aligned16>(search.places +
+                                                     kPlaceSize * std::ptrdiff_t{v});
   };
   if (is_box_beyond(*arguments->query, place(a), place(b), place(c))) return false;
   if (search.accept != nullptr && !(*search.accept)(triangle)) return false;
@@ -189,9 +191,8 @@ SurfaceDistance::SurfaceDistance(const std::vector<Vec3>& positions, const Trian
   const std::unique_ptr<RTCGeometryTy, decltype(&rtcReleaseGeometry)> owner(
       rtcNewGeometry(hierarchy_->device, RTC_GEOMETRY_TYPE_TRIANGLE), rtcReleaseGeometry);
   RTCGeometry geometry = owner.get();
-  auto* places = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                             RTC_FORMAT_FLOAT3, sizeof(Place),
-                                                             positions_.size()));
+  auto* places = static_cast<float*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Place), positions_.size()));
   if (places == nullptr) Hierarchy::fail(RTC_ERROR_OUT_OF_MEMORY);
   hierarchy_->places = places;
   static_assert(sizeof(Triangles::value_type) == 3 * sizeof(unsigned));

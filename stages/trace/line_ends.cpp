@@ -1,4 +1,4 @@
-#include "stages/trace/line_closing.h"
+#include "stages/trace/line_ends.h"
 
 #include <algorithm>
 #include <cmath>
