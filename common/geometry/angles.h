@@ -3,10 +3,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "common/core/types.h"
 
 namespace strake {
+
+constexpr double kDegree = std::numbers::pi / 180;  ///< radians
 
 /// The angle between two ways of any lengths, radians in [0, pi]; exact for small angles and for
 /// those near pi, too. 0 where one of them has no length.

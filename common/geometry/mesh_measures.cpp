@@ -25,6 +25,10 @@ double corner_angle(const TriMesh& mesh, Index h) {
   return angle_between(a, b);
 }
 
+double edge_length(const TriMesh& mesh, Index halfedge) {
+  return (mesh.positions[mesh.to(halfedge)] - mesh.positions[mesh.from(halfedge)]).norm();
+}
+
 bool has_own_normal(const TriMesh& mesh, Index face) {
   const auto& v = mesh.faces[face];
   double longest = 0;

@@ -6,6 +6,8 @@
 
 namespace strake {
 
+double edge_length(const TriMesh& mesh, Index halfedge);
+
 /// Whether a face has an area to speak of, and so a normal that is not taken from its neighbours.
 bool has_own_normal(const TriMesh& mesh, Index face);
 

@@ -20,7 +20,7 @@ namespace {
 /// else go before short ones that bend by a few degrees, as in the flutes of a column.
 constexpr double kShortFirst = 1e-10;
 /// An edge may be turned where its quad turns by less along either diagonal.
-constexpr double kFlat = 2 * std::numbers::pi / 180;
+constexpr double kFlatBend = 2 * std::numbers::pi / 180;
 constexpr std::size_t kReported = 1000;  ///< vertices that go from one report to the next
 constexpr int kMostTurns = 10;           ///< times that all edges are looked at
 
@@ -212,7 +212,7 @@ bool is_better_turned(const Diamond& d) {
   const Vec3 at_b = (d.left - d.b).cross(d.right - d.b);
   const double most = std::max({angle_between(left, right), angle_between(at_a, at_b),
                                 angle_between(left, at_a), angle_between(left, at_b)});
-  if (!(most < kFlat)) return false;
+  if (!(most < kFlatBend)) return false;
   const double now = std::min(smallest_angle(d.a, d.b, d.left), smallest_angle(d.b, d.a, d.right));
   const double then =
       std::min(smallest_angle(d.a, d.right, d.left), smallest_angle(d.b, d.left, d.right));

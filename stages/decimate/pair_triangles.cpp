@@ -18,7 +18,6 @@
 namespace strake {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 /// Farthest that an angle of a quad may be from a right one.
 constexpr double kFromRightAngle = 82 * kDegree;
 /// Most that a quad turns along the diagonal between its triangles.

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/geometry/mesh_measures.h"
 #include "common/geometry/topology/topology.h"
 
 namespace strake::import {
@@ -16,10 +17,6 @@ namespace {
 constexpr double kNeedle = 0.005;
 /// Cosine up to which an edge goes on straight from another one: 10 degrees.
 constexpr double kStraightOn = 0.985;
-
-double edge_length(const TriMesh& mesh, Index h) {
-  return (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).norm();
-}
 
 double longest_edge(const TriMesh& mesh) {
   double longest = 0;

@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/geometry/mesh_measures.h"
+
 namespace strake::import {
 namespace {
-
-double edge_length(const TriMesh& mesh, Index h) {
-  return (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).norm();
-}
 
 double longest_edge(const TriMesh& mesh, Index f) {
   return std::max(

@@ -1,22 +1,22 @@
 #include "stages/import/facets.h"
 
 #include <cstdint>
-#include <numbers>
 #include <vector>
+
+#include "common/geometry/angles.h"
 
 namespace strake::import {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kFlat = 1 * kDegree;    ///< largest bend within a facet
-constexpr double kLeast = 10 * kDegree;  ///< bend; rounds of more facets are as good as smooth
+constexpr double kFlatBend = 1 * kDegree;  ///< largest bend within a facet
+constexpr double kLeast = 10 * kDegree;    ///< bend; rounds of more facets are as good as smooth
 constexpr double kLeastShare = 2.0 / 3;
 
 /// Whether each triangle is part of a larger flat polygon. [F]
 std::vector<std::uint8_t> in_polygons(const TriMesh& mesh, const std::vector<float>& bend) {
   std::vector<std::uint8_t> result(mesh.faces.size(), 0);
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
-    if (mesh.twin[h] == kNone || bend[h] > kFlat) continue;
+    if (mesh.twin[h] == kNone || bend[h] > kFlatBend) continue;
     result[TriMesh::face_of(h)] = 1;
   }
   return result;

@@ -3,10 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 #include <vector>
 
+#include "common/geometry/angles.h"
 #include "common/geometry/topology/vertex_ring.h"
 #include "stages/import/feature_graph.h"
 #include "stages/import/noise.h"
@@ -14,7 +14,6 @@
 namespace strake::import {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kRoughGround = 2 * kDegree;
 constexpr double kJagged = 15 * kDegree;
 constexpr std::size_t kFewestToJudge = 3;  ///< edges of a line whose turn can change
@@ -228,7 +227,7 @@ constexpr double kLeastAround = 1 * kDegree;
 /// Mean bend around larger pieces, at least: 17 to 29 degrees around those of a noisy scan, and at
 /// most 14.5, where bends cancel, around those of any other of 306 models.
 constexpr double kLeastAroundLarge = 15 * kDegree;
-constexpr double kFlat = 0.3 * kDegree;
+constexpr double kNoBend = 0.3 * kDegree;
 constexpr double kMostFlat = 0.2;
 
 /// Sums of bends over edges, weighted with their lengths.
@@ -255,7 +254,7 @@ struct BendSum {
     sum += way * bend;
     size += way * std::abs(bend);
     length += way;
-    if (std::abs(bend) < kFlat) flat += way;
+    if (std::abs(bend) < kNoBend) flat += way;
   }
   [[nodiscard]] bool cancels(double most_left) const { return std::abs(sum) < most_left * size; }
 };

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -23,8 +22,6 @@
 
 namespace strake::import {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// Angle by which the surface is bent at each half-edge's edge; 0 on the boundary.
 std::vector<float> bend_angles(const TriMesh& mesh, const std::vector<Vec3>& normals) {

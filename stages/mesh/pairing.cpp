@@ -10,7 +10,7 @@
 namespace strake {
 namespace {
 
-constexpr int kMostRounds = 12;
+constexpr int kMostPairingRounds = 12;
 constexpr std::size_t kLongestChord = 24;
 /// Quads between two odd faces that are divided anew together with them.
 constexpr std::size_t kMostBetween = 2;
@@ -42,7 +42,7 @@ class Pairing {
         claimed_(ClaimedNodes::all(graph)) {}
 
   PairingCounts run() {
-    for (int round = 0; round < kMostRounds; ++round) {
+    for (int round = 0; round < kMostPairingRounds; ++round) {
       if (!make(changes())) break;
     }
     return counts_;

@@ -20,7 +20,7 @@ constexpr int kTurn = 5;     ///< makes a vertex of valence 3 and one of valence
 constexpr int kBarrier = 6;  ///< more, for another vertex on a feature or boundary
 /// How far the new corner of a triangle moves off its edge, as a share of that edge, so that it is
 /// convex.
-constexpr double kBulge = 1e-2;
+constexpr double kCornerBulge = 1e-2;
 
 std::size_t sides(const PolygonGraph& graph, Index dart) { return graph.cell(dart).size(); }
 
@@ -79,7 +79,7 @@ void divide_odd(PolygonGraph& graph, Index leaving) {
   const Vec3 along = p[1] - p[3];
   const Vec3 outwards = along.cross(vector_area(p));
   if (outwards.norm() > 0) {
-    graph.move(node, p[0] + kBulge * along.norm() * outwards.normalized());
+    graph.move(node, p[0] + kCornerBulge * along.norm() * outwards.normalized());
   }
 }
 

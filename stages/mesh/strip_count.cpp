@@ -10,7 +10,7 @@
 namespace strake {
 namespace {
 
-constexpr int kMostRounds = 4;
+constexpr int kMostStripRounds = 4;
 /// Longer strips are left: finding that a way does not meet itself takes the square of its length.
 constexpr std::size_t kLongestStrip = 400;
 constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -82,7 +82,7 @@ class StripCount {
         mean_square_bend_(mean_square_bend(graph)) {}
 
   StripCounts run(Index vertices) {
-    for (int round = 0; round < kMostRounds; ++round) {
+    for (int round = 0; round < kMostStripRounds; ++round) {
       const Index missing = vertices - count_vertices(graph_);
       if (!make(offers(missing < 0), missing)) break;
     }

@@ -35,7 +35,7 @@ constexpr double kMostWhole = 0.1;
 /// Cells in all of places where no inlay could be cut, after which none grows for that any more.
 constexpr std::size_t kMostInVain = 40000;
 /// Times that inlays grow, for faces that cross, without fewer faults than ever before.
-constexpr int kRoundsInVain = 4;
+constexpr int kInlaysInVain = 4;
 /// Where more cells are bad, it is not for single places.
 constexpr std::size_t kMostBad = 3000;
 
@@ -73,7 +73,7 @@ class Inlays {
     std::size_t fewest = std::numeric_limits<std::size_t>::max();
     std::vector<Site> best;
     int in_vain = 0;
-    for (int round = 0; round < goal_.rounds && bad.any() && in_vain < kRoundsInVain; ++round) {
+    for (int round = 0; round < goal_.rounds && bad.any() && in_vain < kInlaysInVain; ++round) {
       if (!widen(now, bad.faces) || !cut() || sites_.empty()) break;
       now = inlaid();
       bad = faults(now);

@@ -15,14 +15,14 @@ namespace {
 
 using Three = std::array<Index, 3>;
 
-constexpr Index kBlock = 1 << 18;
+constexpr Index kRowsAtOnce = 1 << 18;
 constexpr const char* kPhase = "reading the part of the mesh";
 
 /// Calls visit(first, count) for all rows, block by block.
 template <class Visit>
 void for_each_block(Index rows, Visit visit) {
   for (Index first = 0; first < rows;) {
-    const Index count = std::min(kBlock, rows - first);
+    const Index count = std::min(kRowsAtOnce, rows - first);
     visit(first, count);
     first += count;
   }

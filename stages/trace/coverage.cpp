@@ -14,8 +14,8 @@ namespace {
 /// Distance of samples inside large faces, in line distances.
 constexpr double kSampleDistance = 0.8;
 constexpr int kMostSamplesPerFace = 20000;
-constexpr double kRounding = 1e-9;     ///< of places along a face
-constexpr std::uint8_t kBothArms = 3;  ///< the bits of arm_bit
+constexpr double kRoundingOfPlaces = 1e-9;  ///< of places along a face
+constexpr std::uint8_t kBothArms = 3;       ///< the bits of arm_bit
 
 /// Bit of the arm of a cross that a direction follows.
 std::uint8_t arm_bit(const Vec3& arm, const Vec3& flat) {
@@ -127,7 +127,7 @@ void Coverage::mark_points(Index face, const CoveredDisc& disc) {
   const double middle = rows.place(disc.point);
   const auto first = points_.begin() + offsets_[face];
   const auto last = points_.begin() + offsets_[face + 1];
-  const double margin = (1 + kRounding) * disc.distance;
+  const double margin = (1 + kRoundingOfPlaces) * disc.distance;
   const auto is_before = [&](const Point& q) { return rows.place(q.position) < middle - margin; };
   for (auto p = std::partition_point(first, last, is_before);
        p != last && rows.place(p->position) <= middle + margin; ++p) {

@@ -20,7 +20,7 @@ constexpr double kLarge = 1.5;
 /// Cosine of the angle between the normals of faces of a block and of its first one, at least.
 constexpr double kLeastAgreement = 0.5;
 /// Share of the largest coordinate by which single precision may round a place, doubled.
-constexpr double kRounding = 2.5e-7;
+constexpr double kRoundingOfFloats = 2.5e-7;
 
 Vec3 centroid(const TriMesh& mesh, Index face) {
   const auto& [a, b, c] = mesh.faces[face];
@@ -61,7 +61,7 @@ bool is_large_face(const TriMesh& mesh, const Spacing& spacing, Index face) {
 FaceBlocks::FaceBlocks(const TriMesh& mesh, const Spacing& spacing,
                        const std::vector<std::uint8_t>& barriers)
     : mesh_(mesh), barriers_(barriers), block_of_(mesh.face_count(), kNone) {
-  const double rounding = kRounding * largest_coordinate(mesh);
+  const double rounding = kRoundingOfFloats * largest_coordinate(mesh);
   faces_.reserve(mesh.face_count());
   first_face_.push_back(0);
   for (Index first = 0; first < mesh.face_count(); ++first) {

@@ -28,7 +28,8 @@ OptionList TraceOptions::declare() {
       {.name = "spacing-scale",
        .target = &spacing_scale,
        .unit = "",
-       .help = "Factor on all distances between lines, to correct a count.",
+       .help = "Factor on all distances between lines; 1. Without it, lines for a count are traced "
+               "again, up to three times, until they cross about as often.",
        .min = 0.01,
        .max = 100},
       {.name = "max-spacing",

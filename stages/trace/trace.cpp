@@ -3,8 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <random>
-#include <tuple>
 #include <utility>
 
 #include "common/core/error.h"
@@ -13,6 +14,7 @@
 #include "common/geometry/topology/topology.h"
 #include "stages/trace/barrier_lines.h"
 #include "stages/trace/line_collector.h"
+#include "stages/trace/line_count.h"
 #include "stages/trace/spacing.h"
 
 namespace strake {
@@ -27,6 +29,10 @@ constexpr double kLargestCell = 3;         ///< in mean cell lengths, where a co
 constexpr double kSmallestSpacing = 1e-4;  ///< share of the diagonal
 constexpr Index kSeedsPerComponent = 8;
 constexpr int kTriesPerSeed = 32;
+/// Times that lines are traced again for a count, and error of it, as a share, that is small
+/// enough: the count that lines give is only known to a tenth.
+constexpr int kMostCorrections = 3;
+constexpr double kCountAccuracy = 0.03;
 
 /// How strongly the directions at a face can be trusted: relative anisotropy times confidence.
 double reliability(const TriMesh& mesh, const PrincipalField& field, Index f) {
@@ -76,42 +82,59 @@ double largest_spacing(double tolerance, double diagonal) {
   return kDefaultMaxSpacing.resolve(diagonal) * std::sqrt(std::max(1.0, ratio));
 }
 
-/// Spacings as the options ask for them, and the tolerance they stand for.
-std::pair<Spacing, double> choose_spacing(const TriMesh& mesh, const PrincipalField& field,
-                                          const WantedSizes& sizes, const TraceOptions& options) {
-  const int wanted = int(options.tolerance.has_value()) + int(options.vertices.has_value()) +
-                     int(options.faces.has_value());
-  if (wanted > 1) throw UsageError("give only one of --tolerance, --vertices and --faces");
-  SpacingLimits limits;
-  limits.smallest = kSmallestSpacing * mesh.diagonal;
-  const double tolerance = options.tolerance.value_or(kDefaultTolerance).resolve(mesh.diagonal);
-  limits.largest = options.max_spacing ? options.max_spacing->resolve(mesh.diagonal)
-                                       : largest_spacing(tolerance, mesh.diagonal);
-  SpacingModel model(mesh, field, sizes.size);
-  // A size field was made from distances that had the density in them already.
-  if (sizes.density != nullptr && sizes.size == nullptr) {
-    model.multiply_density(density_at_wedges(mesh, *sizes.density));
-  }
-  bound_rings(mesh, model);
-  Spacing spacing;
-  double family_tolerance = sizes.size != nullptr ? 1 : kShareOfFamily * tolerance;
-  if (options.vertices || options.faces) {
-    const auto count = static_cast<double>(options.vertices ? *options.vertices : *options.faces);
-    double area = 0;
-    for (const double a : model.areas()) area += a;
-    // Relative to the mean cell: flats may be coarse, but not out of proportion.
-    if (!options.max_spacing) limits.largest = kLargestCell * std::sqrt(area / count);
-    std::tie(family_tolerance, spacing) = model.for_count(count, limits);
-  }
-  limits.scale = options.spacing_scale;
-  if (spacing.along.empty() || limits.scale != 1) {
-    spacing = model.for_tolerance(family_tolerance, limits);
-  }
-  // What a user says of distances or of lines counts more than where lines end.
-  const bool is_free = sizes.density == nullptr && field.guides.line_count() == 0;
-  if (is_free) model.follow_lines(options.line_flow, limits, spacing);
-  return {std::move(spacing), family_tolerance / kShareOfFamily};
+/// Vertices or faces that are wanted: of almost only quads there are about as many of both.
+std::optional<double> wanted_count(const TraceOptions& options) {
+  if (options.vertices) return static_cast<double>(*options.vertices);
+  if (options.faces) return static_cast<double>(*options.faces);
+  return std::nullopt;
 }
+
+/// How far lines are to be apart, but for a factor on all distances.
+class WantedSpacing {
+ public:
+  WantedSpacing(const TriMesh& mesh, const PrincipalField& field, const WantedSizes& sizes,
+                const TraceOptions& options)
+      : model_(mesh, field, sizes.size),
+        // What a user says of distances or of lines counts more than where lines end.
+        line_flow_(sizes.density == nullptr && field.guides.line_count() == 0 ? options.line_flow
+                                                                              : 0) {
+    const double tolerance = options.tolerance.value_or(kDefaultTolerance).resolve(mesh.diagonal);
+    limits_.smallest = kSmallestSpacing * mesh.diagonal;
+    limits_.largest = options.max_spacing ? options.max_spacing->resolve(mesh.diagonal)
+                                          : largest_spacing(tolerance, mesh.diagonal);
+    // A size field was made from distances that had the density in them already.
+    if (sizes.density != nullptr && sizes.size == nullptr) {
+      model_.multiply_density(density_at_wedges(mesh, *sizes.density));
+    }
+    bound_rings(mesh, model_);
+    tolerance_of_family_ = sizes.size != nullptr ? 1 : kShareOfFamily * tolerance;
+    if (const auto count = wanted_count(options)) {
+      double area = 0;
+      for (const double a : model_.areas()) area += a;
+      // Relative to the mean cell: flats may be coarse, but not out of proportion.
+      if (!options.max_spacing) limits_.largest = kLargestCell * std::sqrt(area / *count);
+      tolerance_of_family_ = model_.for_count(*count, limits_).first;
+    }
+  }
+
+  /// \param scale  factor on all distances, positive
+  [[nodiscard]] Spacing at(double scale) const {
+    SpacingLimits limits = limits_;
+    limits.scale = scale;
+    Spacing spacing = model_.for_tolerance(tolerance_of_family_, limits);
+    if (line_flow_ > 0) model_.follow_lines(line_flow_, limits, spacing);
+    return spacing;
+  }
+
+  /// The tolerance that the distances stand for, model units.
+  [[nodiscard]] double tolerance() const { return tolerance_of_family_ / kShareOfFamily; }
+
+ private:
+  SpacingModel model_;
+  double line_flow_;
+  SpacingLimits limits_;
+  double tolerance_of_family_ = 0;
+};
 
 /// Seeds on guide lines, from the middle of each: lines along them come first. All places are
 /// tried, for guides that are bent more than lines can be, and so need several.
@@ -143,12 +166,11 @@ std::vector<Seed> first_seeds(const TraceDomain& domain, const std::vector<Barri
   return seeds;
 }
 
-}  // namespace
-
-TraceResult trace_lines(const TriMesh& mesh, const PrincipalField& field,
-                        const TraceOptions& options, Observer& observer, const WantedSizes& sizes) {
+TraceResult trace_at(const TriMesh& mesh, const PrincipalField& field, const WantedSpacing& wanted,
+                     double scale, const TraceOptions& options, const WantedSizes& sizes,
+                     Observer& observer) {
   observer.report("choosing line distances", 0);
-  auto [spacing, tolerance] = choose_spacing(mesh, field, sizes, options);
+  Spacing spacing = wanted.at(scale);
   const TraceDomain domain{mesh, field, spacing, FaceNormals(mesh)};
   TracerSettings settings;
   settings.stop_fraction = options.stop_fraction.value_or(
@@ -168,7 +190,8 @@ TraceResult trace_lines(const TriMesh& mesh, const PrincipalField& field,
     closed += result.lines.is_closed(l);
   }
   // Sizes say by themselves what is wanted where.
-  if (sizes.size == nullptr) result.report.set("trace.tolerance", tolerance);
+  if (sizes.size == nullptr) result.report.set("trace.tolerance", wanted.tolerance());
+  result.report.set("trace.spacing_scale", scale);
   result.report.set("trace.lines", static_cast<std::int64_t>(result.lines.line_count()));
   result.report.set("trace.feature_and_boundary_lines", barriers.size());
   result.report.set("trace.closed_lines", static_cast<std::int64_t>(closed));
@@ -179,6 +202,36 @@ TraceResult trace_lines(const TriMesh& mesh, const PrincipalField& field,
   result.lines.spacing_along_min = std::move(spacing.along);
   result.lines.spacing_along_max = std::move(spacing.across);
   return result;
+}
+
+}  // namespace
+
+TraceResult trace_lines(const TriMesh& mesh, const PrincipalField& field,
+                        const TraceOptions& options, Observer& observer, const WantedSizes& sizes) {
+  const int goals = int(options.tolerance.has_value()) + int(options.vertices.has_value()) +
+                    int(options.faces.has_value());
+  if (goals > 1) throw UsageError("give only one of --tolerance, --vertices and --faces");
+  const WantedSpacing spacing(mesh, field, sizes, options);
+  const auto trace = [&](double scale) {
+    return trace_at(mesh, field, spacing, scale, options, sizes, observer);
+  };
+  const std::optional<double> wanted = wanted_count(options);
+  if (!wanted || options.spacing_scale) return trace(options.spacing_scale.value_or(1));
+  TraceResult best;
+  double least_miss = std::numeric_limits<double>::infinity();
+  double scale = 1;
+  for (int round = 0; round <= kMostCorrections; ++round) {
+    TraceResult traced = trace(scale);
+    const LineCount count = count_places(mesh, traced.lines);
+    const double miss = std::abs(static_cast<double>(count.vertices()) / *wanted - 1);
+    scale *= scale_for(count, *wanted);
+    if (miss < least_miss) {
+      least_miss = miss;
+      best = std::move(traced);
+    }
+    if (least_miss <= kCountAccuracy) break;
+  }
+  return best;
 }
 
 }  // namespace strake

@@ -13,7 +13,8 @@ struct TraceOptions {
   std::optional<Length> tolerance;       ///< approximation tolerance; default 0.1 %
   std::optional<std::int64_t> vertices;  ///< wanted vertex count instead of a tolerance
   std::optional<std::int64_t> faces;     ///< wanted face count instead of a tolerance
-  double spacing_scale = 1;              ///< factor on all spacings, for corrections of the count
+  /// Factor on all spacings. Without it, lines for a count are traced again until they give it.
+  std::optional<double> spacing_scale;
   /// Cap on the distance between lines; default: 5 % up to a tolerance of 0.1 %, growing with its
   /// root beyond, or three mean cells where a count is wanted.
   std::optional<Length> max_spacing;

@@ -19,7 +19,7 @@ constexpr int kMostAttempts = 2;
 /// Faces of a result, from which on there are none, and share of them that may cross: where more do
 /// lines are too coarse all over.
 constexpr Index kMostFaces = 10000;
-constexpr double kMostCross = 0.02;
+constexpr double kMostMayCross = 0.02;
 /// Distance from the surface, in mean lengths of cells, from which on a detail is lost. A first
 /// look takes few samples: none is where less than this share of that distance is found with those.
 constexpr double kLost = 0.3;
@@ -29,7 +29,7 @@ constexpr CellSampling kFirstLook = {.rows = 2, .input_step = 1};
 constexpr double kAmongTheWorst = 0.5;
 /// Share of the largest distance that is less, and of the root mean square that is hardly more.
 constexpr double kLess = 0.8;
-constexpr double kHardlyMore = 1.05;
+constexpr double kHardlyFarther = 1.05;
 
 /// How far a result is off the surface.
 struct Distance {
@@ -65,7 +65,7 @@ Distance distance_of(const Session& session) {
 bool is_better(const Attempt& next, const Distance& distance, const Attempt& best,
                const Distance& before) {
   return !next.misses_goal && next.places.size() <= best.places.size() &&
-         distance.largest < kLess * before.largest && distance.rms < kHardlyMore * before.rms;
+         distance.largest < kLess * before.largest && distance.rms < kHardlyFarther * before.rms;
 }
 
 }  // namespace
@@ -76,7 +76,7 @@ Attempt regain_details(const Attempt& first, const Again& again,
   Attempt last = first;
   const Index faces = first.done.get<QuadMesh>(result_port(first.done)).mesh.face_count();
   const double crossing = static_cast<double>(first.places.size()) / faces;
-  if (faces > kMostFaces || crossing > kMostCross) return best;
+  if (faces > kMostFaces || crossing > kMostMayCross) return best;
   Distance least = distance_of(first.done);
   Distance distance = least;
   bool is_last_best = true;

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kTolerance = 1e-6;
 
-PolyMesh sample(SampleKind kind, std::int64_t faces = 4000) {
+PolyMesh sample_soup(SampleKind kind, std::int64_t faces = 4000) {
   SampleOptions options;
   options.faces = faces;
   return make_sample(kind, options);
@@ -36,7 +36,7 @@ double largest(const TensorField& field) {
 class TensorInvariance : public ::testing::TestWithParam<SampleKind> {
  protected:
   TensorInvariance()
-      : soup_(sample(GetParam())),
+      : soup_(sample_soup(GetParam())),
         mesh_(support::plain_tri_mesh(soup_)),
         radius_{3 * support::mean_edge_length(mesh_), false},
         field_(support::tensors(mesh_, radius_)),
@@ -153,7 +153,7 @@ TEST_P(TensorInvariance, IsTheSameForAnyNumberOfThreads) {
 }
 
 TEST(TensorOfAPlane, Vanishes) {
-  const TriMesh mesh = support::plain_tri_mesh(sample(SampleKind::plane));
+  const TriMesh mesh = support::plain_tri_mesh(sample_soup(SampleKind::plane));
   const TensorField field = support::tensors(mesh, percent(5));
   EXPECT_EQ(largest(field), 0);
   for (const Vec3& normal : field.normal) EXPECT_LT((normal - Vec3::UnitZ()).norm(), 1e-15);

@@ -7,13 +7,6 @@
 namespace strake::pipeline_test {
 namespace {
 
-constexpr int kInternal = 1;
-constexpr int kUsage = 2;
-constexpr int kBadInput = 3;
-constexpr int kPrecondition = 4;
-constexpr int kAlgorithmFailed = 5;
-constexpr int kInterrupted = 130;
-
 class Errors : public ProgramTest {
  protected:
   Errors() {

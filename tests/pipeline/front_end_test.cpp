@@ -56,7 +56,7 @@ TEST_F(FrontEnd, MeetsAWantedCount) {
 TEST_F(FrontEnd, SaysOfResultsWhatWasAskedFor) {
   must("strake remesh torus.ply -q --no-evaluate -o out.hdf --vertices 400 --seed 7");
   const std::string told = run("strake info out.hdf").out;
-  for (const char* part : {"--vertices 400\n", "--seed 7\n", "--spacing-scale 1  (default)",
+  for (const char* part : {"--vertices 400\n", "--seed 7\n", "--spacing-scale (none)  (default)",
                            "--refine-vertices (none)  (default)"}) {
     EXPECT_NE(told.find(part), std::string::npos) << part << " in\n" << told;
   }

@@ -3,10 +3,6 @@
 namespace strake::pipeline_test {
 namespace {
 
-constexpr int kUsage = 2;
-constexpr int kBadInput = 3;
-constexpr int kPrecondition = 4;
-
 /// A mesh with features, its tensors, and the tensors of its three parts.
 class Parts : public ProgramTest {
  protected:

@@ -10,10 +10,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kUsage = 2;
-constexpr int kBadInput = 3;
-constexpr int kPrecondition = 4;
-
 class RunOptions : public PipelineTest {
  protected:
   RunOptions() {

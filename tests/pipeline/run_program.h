@@ -15,6 +15,14 @@
 
 namespace strake::pipeline_test {
 
+// Exit codes.
+constexpr int kInternal = 1;
+constexpr int kUsage = 2;
+constexpr int kBadInput = 3;
+constexpr int kPrecondition = 4;
+constexpr int kAlgorithmFailed = 5;
+constexpr int kInterrupted = 130;
+
 /// What a program did.
 struct Outcome {
   int exit_code = -1;

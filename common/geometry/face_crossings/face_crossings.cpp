@@ -91,7 +91,7 @@ bool is_apart(const Triangle& t, const Triangle& plane) {
 /// other one but for a corner it shares with that edge. False is no answer: this sees no more than
 /// rounding lets it, and only planes that stand on `a`, in a tenth of the time of exact tests.
 bool is_beyond_an_edge(const Triangle& a, const Triangle& b) {
-  constexpr double kRounding = 128 * std::numeric_limits<double>::epsilon();
+  constexpr double kRoundingOfSides = 128 * std::numeric_limits<double>::epsilon();
   const Vec3 normal = (a[1] - a[0]).cross(a[2] - a[0]);
   for (int i = 0; i < 3; ++i) {
     const Vec3& from = a[i];
@@ -99,7 +99,7 @@ bool is_beyond_an_edge(const Triangle& a, const Triangle& b) {
     const Vec3 along = to - from;
     const Vec3 outward = along.cross(normal);
     const double scale =
-        kRounding * along.lpNorm<Eigen::Infinity>() * normal.lpNorm<Eigen::Infinity>();
+        kRoundingOfSides * along.lpNorm<Eigen::Infinity>() * normal.lpNorm<Eigen::Infinity>();
     const auto is_out = [&](const Vec3& p, double sign) {
       const Vec3 way = p - from;
       return sign * outward.dot(way) >

@@ -19,9 +19,9 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMostBetween = 3;
 /// Farthest that an angle of a quad may be from a right one.
-constexpr double kFromRightAngle = 78 * std::numbers::pi / 180;
+constexpr double kMostFromRightAngle = 78 * std::numbers::pi / 180;
 /// Least cosine of the turn along either diagonal of a quad.
-constexpr double kLeastEvenness = 0.5;
+constexpr double kLeastOfBothEvenness = 0.5;
 /// Weight of the squared deviation of a number of edges from four, beside those of angles, rad^2.
 constexpr double kDegreePrice = 0.1;
 
@@ -190,13 +190,13 @@ class Search {
       const Vec3 ahead = mesh_.positions[face[(i + 1) % 4]] - p;
       const Vec3 back = mesh_.positions[face[(i + 3) % 4]] - p;
       const double off = angle_between(ahead, back) - std::numbers::pi / 2;
-      if (std::abs(off) > kFromRightAngle) return kInfinity;
+      if (std::abs(off) > kMostFromRightAngle) return kInfinity;
       turn[i] = ahead.cross(back).normalized();
       price += off * off / 4;
     }
     // The two triangles along a diagonal lie at the corners that are not on it.
     const bool is_even =
-        turn[0].dot(turn[2]) > kLeastEvenness && turn[1].dot(turn[3]) > kLeastEvenness;
+        turn[0].dot(turn[2]) > kLeastOfBothEvenness && turn[1].dot(turn[3]) > kLeastOfBothEvenness;
     return is_even ? price : kInfinity;
   }
 

@@ -14,7 +14,7 @@
 namespace strake {
 namespace {
 
-class Listener : public StageObserver {
+class LineListener : public StageObserver {
  public:
   void report(std::string_view /*phase*/, double /*fraction*/) override {}
   void say(const std::string& line) override { said.push_back(line); }
@@ -79,7 +79,7 @@ class Trial {
     return std::ranges::count(listener.said, line) > 0;
   }
 
-  Listener listener;
+  LineListener listener;
   std::ptrdiff_t kept_features = 0;
   int kept_times = 0;
 

@@ -1,9 +1,12 @@
 #include "tests/unit/chain/results.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <variant>
 
 #include "common/geometry/face_crossings/face_crossings.h"
@@ -42,6 +45,18 @@ double largest_distance(const RemeshResult& result) {
     }
   }
   return std::nan("");
+}
+
+double measure_of(const RemeshResult& result, const std::string& key) {
+  for (const auto& [stage, report] : result.reports) {
+    for (const auto& [name, value] : report.entries()) {
+      if (name != key) continue;
+      const auto* number = std::get_if<double>(&value);
+      return number != nullptr ? *number : static_cast<double>(std::get<std::int64_t>(value));
+    }
+  }
+  ADD_FAILURE() << "no " << key;
+  return 0;
 }
 
 }  // namespace strake

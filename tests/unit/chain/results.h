@@ -22,6 +22,9 @@ std::size_t crossings(const PolyMesh& mesh);
 /// As measured of a result; not a number where it was not.
 double largest_distance(const RemeshResult& result);
 
+/// A number of the reports of the stages; a failure of the test where there is none.
+double measure_of(const RemeshResult& result, const std::string& key);
+
 /// Keeps what is said.
 class Listener : public StageObserver {
  public:

@@ -11,6 +11,7 @@
 #include "common/geometry/samples/samples.h"
 #include "strake/chain/remesh.h"
 #include "tests/support/plates.h"
+#include "tests/unit/chain/results.h"
 
 namespace strake {
 namespace {
@@ -27,18 +28,6 @@ PolyMesh pits(int along = 4) {
 
 /// Three for each pit.
 constexpr Index kFewVertices = 48;
-
-double measure_of(const RemeshResult& result, const std::string& key) {
-  for (const auto& [stage, report] : result.reports) {
-    for (const auto& [name, value] : report.entries()) {
-      if (name != key) continue;
-      const auto* number = std::get_if<double>(&value);
-      return number != nullptr ? *number : static_cast<double>(std::get<std::int64_t>(value));
-    }
-  }
-  ADD_FAILURE() << "no " << key;
-  return 0;
-}
 
 bool is_decimated(const RemeshResult& result) {
   return std::ranges::any_of(result.messages, [](const std::string& message) {

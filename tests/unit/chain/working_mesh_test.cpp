@@ -9,6 +9,7 @@
 #include "common/geometry/poly_topology/poly_topology.h"
 #include "common/geometry/samples/samples.h"
 #include "strake/chain/remesh.h"
+#include "tests/unit/chain/results.h"
 
 namespace strake {
 namespace {
@@ -29,16 +30,6 @@ RemeshResult remeshed(const PolyMesh& mesh, std::int64_t vertices, double ratio)
 bool has_run(const RemeshResult& result, const std::string& stage) {
   return std::ranges::any_of(result.reports,
                              [&](const auto& entry) { return entry.first == stage; });
-}
-
-double measure_of(const RemeshResult& result, const std::string& key) {
-  for (const auto& [stage, report] : result.reports) {
-    for (const auto& [name, value] : report.entries()) {
-      if (name == key) return std::get<double>(value);
-    }
-  }
-  ADD_FAILURE() << "no " << key;
-  return 0;
 }
 
 TEST(WorkingMesh, IsMadeWhereTheInputIsMuchFinerThanTheResult) {

@@ -40,7 +40,7 @@ OnCoarser remeshed(const PolyMesh& soup, Index coarse_vertices, std::int64_t ver
   return {std::move(mesh), std::move(working.mesh), std::move(quads)};
 }
 
-PolyMesh sample(SampleKind kind, std::int64_t faces) {
+PolyMesh sample_soup(SampleKind kind, std::int64_t faces) {
   SampleOptions options;
   options.faces = faces;
   return make_sample(kind, options);
@@ -51,7 +51,7 @@ SurfacePoint foot_of(const QuadMesh& quads, Index v) {
 }
 
 TEST(LiftQuads, VerticesStayAndFeetAreNearThem) {
-  const OnCoarser result = remeshed(sample(SampleKind::ellipsoid, 40000), 2000, 200);
+  const OnCoarser result = remeshed(sample_soup(SampleKind::ellipsoid, 40000), 2000, 200);
   const QuadMesh lifted = lift_quads(result.mesh, result.coarse, result.quads);
   EXPECT_EQ(lifted.mesh_id, result.mesh.id);
   EXPECT_EQ(lifted.mesh.positions, result.quads.mesh.positions);
@@ -74,7 +74,7 @@ TEST(LiftQuads, VerticesStayAndFeetAreNearThem) {
 }
 
 TEST(LiftQuads, OnLinesFeetAreTheVerticesThemselves) {
-  const OnCoarser result = remeshed(sample(SampleKind::part, 20000), 3000, 600);
+  const OnCoarser result = remeshed(sample_soup(SampleKind::part, 20000), 3000, 600);
   const QuadMesh lifted = lift_quads(result.mesh, result.coarse, result.quads);
   Index on_lines = 0;
   for (Index v = 0; v < lifted.mesh.vertex_count(); ++v) {
@@ -106,7 +106,7 @@ TEST(LiftQuads, FeetStayOnTheirSideOfAShell) {
 }
 
 TEST(LiftQuads, CarriesAttributes) {
-  PolyMesh soup = sample(SampleKind::torus, 20000);
+  PolyMesh soup = sample_soup(SampleKind::torus, 20000);
   support::colour_linearly(soup);
   const OnCoarser result = remeshed(soup, 1500, 150);
   EXPECT_TRUE(result.quads.mesh.attributes.colour.empty());

@@ -10,15 +10,10 @@
 
 #include "common/geometry/samples/samples.h"
 #include "tests/support/import_support.h"
+#include "tests/unit/decimate/decimate_samples.h"
 
 namespace strake {
 namespace {
-
-TriMesh sample(SampleKind kind, std::int64_t faces) {
-  SampleOptions options;
-  options.faces = faces;
-  return support::import_tri_mesh(make_sample(kind, options));
-}
 
 CoarseSurface collapsed(const TriMesh& mesh, Index count) {
   SilentObserver observer;

@@ -13,6 +13,7 @@
 #include "common/geometry/topology/topology.h"
 #include "tests/support/import_support.h"
 #include "tests/support/mesh_support.h"
+#include "tests/unit/decimate/decimate_samples.h"
 
 namespace strake {
 namespace {
@@ -57,12 +58,6 @@ QuadMesh decimated(const TriMesh& mesh, std::int64_t vertices, Report* report = 
   DecimateResult result = decimate_to_quads(mesh, options, observer);
   if (report != nullptr) *report = result.report;
   return result.quads;
-}
-
-TriMesh sample(SampleKind kind, std::int64_t faces) {
-  SampleOptions options;
-  options.faces = faces;
-  return support::import_tri_mesh(make_sample(kind, options));
 }
 
 TEST(DecimateToQuads, ACubeOfManyFacesIsSixQuads) {

@@ -21,15 +21,15 @@ class Random {
   std::mt19937 engine_{11};
 };
 
-struct Triangles {
+struct Scattered {
   std::vector<Vec3> positions;
   std::vector<std::array<Index, 3>> corners;
 };
 
 /// Triangles of size `size` scattered over [-1, 1]^3, some of them segments and points.
-Triangles scattered(Index count, double size, const Vec3& offset) {
+Scattered scattered(Index count, double size, const Vec3& offset) {
   Random random;
-  Triangles result;
+  Scattered result;
   for (Index t = 0; t < count; ++t) {
     const Vec3 middle = random.point(1) + offset;
     for (int k = 0; k < 3; ++k) result.positions.push_back(middle + random.point(size));
@@ -67,7 +67,7 @@ TEST(ClosestPointOnTriangle, SatisfiesTheOptimalityCondition) {
 TEST(SurfaceDistance, AgreesWithAllTrianglesOneByOne) {
   for (const double offset : {0.0, 1e6}) {
     const Vec3 shift = Vec3::Constant(offset);
-    const Triangles set = scattered(400, 0.2, shift);
+    const Scattered set = scattered(400, 0.2, shift);
     const SurfaceDistance surface(set.positions, set.corners);
     Random random;
     for (int i = 0; i < 300; ++i) {
@@ -99,7 +99,7 @@ TEST(SurfaceDistance, EquallyNearTrianglesGiveTheLeastIndex) {
 }
 
 TEST(SurfaceDistance, QueriesMayRunInParallel) {
-  const Triangles set = scattered(500, 0.1, Vec3::Zero());
+  const Scattered set = scattered(500, 0.1, Vec3::Zero());
   const SurfaceDistance surface(set.positions, set.corners);
   Random random;
   std::vector<Vec3> points;

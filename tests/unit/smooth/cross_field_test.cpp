@@ -8,6 +8,7 @@
 #include <numeric>
 #include <random>
 
+#include "common/geometry/angles.h"
 #include "common/geometry/conjugate_gradients.h"
 #include "common/geometry/frames.h"
 #include "common/geometry/mesh_measures.h"
@@ -15,22 +16,12 @@
 #include "tests/support/analytic_surfaces.h"
 #include "tests/support/chain.h"
 #include "tests/support/mesh_support.h"
+#include "tests/unit/smooth/cross_angles.h"
 
 namespace strake {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
 const double kStiffness = SmoothOptions{}.field_stiffness;
-
-double angle_to_arm(const Vec3& arm, const Vec3& normal, const Vec3& direction) {
-  const double x = std::abs(direction.dot(arm));
-  const double y = std::abs(direction.dot(normal.cross(arm)));
-  return std::atan2(std::min(x, y), std::max(x, y));
-}
-
-double angle_to_cross(const PrincipalField& field, Index w, const Vec3& direction) {
-  return angle_to_arm(field.cross[w], field.normal[w], direction);
-}
 
 /// [F] The turns that the cross makes around each face: quarters.
 std::vector<double> face_indices(const TriMesh& mesh, const PrincipalField& field) {

@@ -10,16 +10,16 @@
 
 #include "common/artifact/meshfile/guide_reader.h"
 #include "common/core/error.h"
+#include "common/geometry/angles.h"
 #include "common/geometry/frames.h"
 #include "common/geometry/samples/samples.h"
 #include "stages/smooth/guide_layout.h"
 #include "tests/support/chain.h"
 #include "tests/support/mesh_support.h"
+#include "tests/unit/smooth/cross_angles.h"
 
 namespace strake {
 namespace {
-
-constexpr double kDegree = M_PI / 180;
 
 PolyMesh sample(SampleKind kind, std::int64_t faces) {
   SampleOptions options;
@@ -34,13 +34,6 @@ GuideLines guide_along(const std::function<Vec3(double)>& curve, int count) {
   std::vector<Vec3>& line = guides.lines.emplace_back();
   for (int i = 0; i < count; ++i) line.push_back(curve(double(i) / (count - 1)));
   return guides;
-}
-
-double angle_to_cross(const PrincipalField& field, Index w, const Vec3& direction) {
-  const Vec3& arm = field.cross[w];
-  const double x = std::abs(direction.dot(arm));
-  const double y = std::abs(direction.dot(field.normal[w].cross(arm)));
-  return std::atan2(std::min(x, y), std::max(x, y));
 }
 
 /// Where a point lies beside a guide.

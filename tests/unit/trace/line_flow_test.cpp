@@ -15,7 +15,7 @@ namespace strake {
 namespace {
 
 constexpr double kCell = 0.1;
-constexpr double kCells = 5;
+constexpr double kFlowCells = 5;
 
 using Distance = std::function<double(const Vec3&)>;
 
@@ -33,7 +33,7 @@ Spacing spacing_with(const TriMesh& mesh, const Distance& between) {
 }
 
 Spacing followed(const TriMesh& mesh, const PrincipalField& field, Spacing spacing) {
-  follow_lines(mesh, field, ArmBonds(mesh, field), kCells, spacing);
+  follow_lines(mesh, field, ArmBonds(mesh, field), kFlowCells, spacing);
   return spacing;
 }
 
@@ -63,7 +63,7 @@ double kept_of_wave(const Vec3& direction, int half_waves) {
 TEST(LineFlow, ChangesAlongLinesFallByTheirWavelength) {
   for (const int half_waves : {1, 2, 4}) {
     // Of x^2 + (L d(s + x))^2 the least, for a wave of number k: 1 / (1 + (L k)^2) stays.
-    const double phase = kCells * kCell * half_waves * M_PI / 2;
+    const double phase = kFlowCells * kCell * half_waves * M_PI / 2;
     EXPECT_NEAR(kept_of_wave(Vec3::UnitX(), half_waves), 1 / (1 + phase * phase), 0.02)
         << half_waves;
   }
@@ -104,7 +104,7 @@ TEST(LineFlow, LetsDistancesGrowWhereLinesPart) {
   const Spacing after =
       followed(rays.mesh, rays.field, spacing_with(rays.mesh, [](const Vec3&) { return kCell; }));
   // Of x^2 + (L (dx - g))^2 the least on an interval, for the constant slope g = 1 / radius.
-  const double length = kCells * kCell;
+  const double length = kFlowCells * kCell;
   const double most = length / 30;
   for (Index w = 0; w < rays.mesh.wedge_count(); ++w) {
     const Vec3& p = place(rays.mesh, w);
@@ -167,7 +167,7 @@ TEST(LineFlow, MakesFewerLinesEnd) {
   SampleOptions options;
   options.faces = 12000;
   const support::Prepared surface = support::prepare(make_sample(SampleKind::ellipsoid, options));
-  EXPECT_LT(share_of_ends(surface, kCells), 0.9 * share_of_ends(surface, 0));
+  EXPECT_LT(share_of_ends(surface, kFlowCells), 0.9 * share_of_ends(surface, 0));
 }
 
 }  // namespace
