@@ -15,8 +15,8 @@ namespace strake::fitting {
 ///
 /// A face must not become concave, turn away from the surface, or get a smaller least angle than it
 /// had where that is below 20 degrees, which it is where a side has no length, no side may get
-/// shorter than it was, in mean ones of its face, where that is below a twentieth, and no two faces
-/// may begin to cross.
+/// shorter than it was where it is below a twentieth of the mean one of its face and half of what
+/// it was at first, and no two faces may begin to cross.
 class FaceGuard {
  public:
   /// Faces that cross at these places may go on crossing.
@@ -45,18 +45,24 @@ class FaceGuard {
   };
 
   [[nodiscard]] Form form(const VertexPlaces& places, Index face) const;
-  /// Calls use(corner the side begins at, its length in mean sides) for each side of a face.
+  struct Side {
+    double length = 0;  ///< model units
+    double least = 0;   ///< length below which it is short, model units
+  };
+
+  /// Calls use(corner the side begins at, Side) for each side of a face.
   template <class Use>
   void for_sides(const VertexPlaces& places, Index face, const Use& use) const;
-  [[nodiscard]] bool is_too_short(std::size_t corner, double share) const;
+  [[nodiscard]] bool is_too_short(std::size_t corner, const Side& side) const;
   /// Whether a face got worse in more than the lengths of its sides.
   [[nodiscard]] bool is_worse(const VertexPlaces& places, Index face) const;
 
   const PolyMesh& mesh_;
   std::vector<Form> start_;                    ///< [F]
-  std::vector<double> start_sides_;            ///< [corners] length of the side, in mean ones
+  std::vector<double> start_sides_;            ///< [corners] length of the side, model units
   std::vector<std::array<Index, 2>> allowed_;  ///< pairs of faces that may cross, ascending
   std::vector<Vec3> looked_at_;                ///< [V] where crossings were last looked for
+  std::vector<double> first_sides_;            ///< [corners] length of the side at first
 };
 
 }  // namespace strake::fitting
