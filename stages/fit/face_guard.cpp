@@ -20,17 +20,47 @@ constexpr double kSameAngle = 1e-9;
 
 /// Share of a face's longest side, up to which a side has no length.
 constexpr double kNoLength = 1e-9;
+/// Share of a face's mean side below which a side must not get shorter: vertices that slide along
+/// a line would come to lie on each other, a quarter of the way in each round.
+constexpr double kShortSide = 0.05;
+/// Share of its length at first from which on a side is not short: the face is narrow.
+constexpr double kLikeAtFirst = 0.5;
+/// Lengths that differ by a smaller share are equal: rounding.
+constexpr double kSameLength = 1e-9;
 
 /// Pairs that cross, for each face: results that only fold over have less than one.
 constexpr std::size_t kTangledPairs = 8;
 
 }  // namespace
 
+template <class Use>
+void FaceGuard::for_sides(const VertexPlaces& places, Index face, const Use& use) const {
+  const std::vector<Vec3>& p = places.positions();
+  const std::span<const Index> corners = mesh_.face(face);
+  const auto length = [&](std::size_t i) {
+    return (p[corners[(i + 1) % corners.size()]] - p[corners[i]]).norm();
+  };
+  double mean = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) mean += length(i);
+  mean /= static_cast<double>(corners.size());
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const std::size_t corner = static_cast<std::size_t>(mesh_.offsets[face]) + i;
+    const double like_at_first = kLikeAtFirst * first_sides_[corner];
+    use(corner, Side{length(i), std::min(kShortSide * mean, like_at_first)});
+  }
+}
+
 FaceGuard::FaceGuard(const PolyMesh& mesh, const VertexPlaces& places)
     : mesh_(mesh),
       allowed_(
           find_crossing_faces(places.positions(), triangulate_faces(mesh, places.positions()))),
-      looked_at_(places.positions()) {}
+      looked_at_(places.positions()),
+      first_sides_(mesh.corners.size(), 0) {
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    for_sides(places, f,
+              [&](std::size_t corner, const Side& side) { first_sides_[corner] = side.length; });
+  }
+}
 
 bool FaceGuard::is_tangled() const {
   return allowed_.size() > kTangledPairs * static_cast<std::size_t>(mesh_.face_count());
@@ -62,10 +92,27 @@ FaceGuard::Form FaceGuard::form(const VertexPlaces& places, Index face) const {
 
 void FaceGuard::set_start(const VertexPlaces& places) {
   start_.resize(static_cast<std::size_t>(mesh_.face_count()));
-  tbb::parallel_for(Index{0}, mesh_.face_count(), [&](Index f) { start_[f] = form(places, f); });
+  start_sides_.resize(mesh_.corners.size());
+  tbb::parallel_for(Index{0}, mesh_.face_count(), [&](Index f) {
+    start_[f] = form(places, f);
+    for_sides(places, f,
+              [&](std::size_t corner, const Side& side) { start_sides_[corner] = side.length; });
+  });
+}
+
+bool FaceGuard::is_too_short(std::size_t corner, const Side& side) const {
+  return side.length < side.least && side.length < (1 - kSameLength) * start_sides_[corner];
 }
 
 bool FaceGuard::is_spoilt(const VertexPlaces& places, Index face) const {
+  bool has_short_side = false;
+  for_sides(places, face, [&](std::size_t corner, const Side& side) {
+    has_short_side = has_short_side || is_too_short(corner, side);
+  });
+  return has_short_side || is_worse(places, face);
+}
+
+bool FaceGuard::is_worse(const VertexPlaces& places, Index face) const {
   const Form now = form(places, face);
   const Form& start = start_[face];
   return (now.is_concave && !start.is_concave) || (now.faces_away && !start.faces_away) ||
@@ -75,11 +122,17 @@ bool FaceGuard::is_spoilt(const VertexPlaces& places, Index face) const {
 std::vector<std::uint8_t> FaceGuard::spoilt(const VertexPlaces& places) const {
   std::vector<std::uint8_t> is_spoilt_face(start_.size());
   tbb::parallel_for(Index{0}, mesh_.face_count(),
-                    [&](Index f) { is_spoilt_face[f] = is_spoilt(places, f) ? 1 : 0; });
+                    [&](Index f) { is_spoilt_face[f] = is_worse(places, f) ? 1 : 0; });
   std::vector<std::uint8_t> spoilt(mesh_.positions.size(), 0);
   for (Index f = 0; f < mesh_.face_count(); ++f) {
+    const std::span<const Index> corners = mesh_.face(f);
+    for_sides(places, f, [&](std::size_t corner, const Side& side) {
+      if (!is_too_short(corner, side)) return;
+      const std::size_t i = corner - static_cast<std::size_t>(mesh_.offsets[f]);
+      for (const Index v : {corners[i], corners[(i + 1) % corners.size()]}) spoilt[v] = 1;
+    });
     if (is_spoilt_face[f] == 0) continue;
-    for (const Index v : mesh_.face(f)) spoilt[v] = 1;
+    for (const Index v : corners) spoilt[v] = 1;
   }
   return spoilt;
 }

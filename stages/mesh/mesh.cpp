@@ -305,6 +305,7 @@ MeshResult mesh_lines(const TriMesh& mesh, const LineSet& lines, const MeshOptio
   report.set("mesh.components_kept_as_triangles", kept);
   report.set("mesh.contracted_edges", static_cast<std::int64_t>(cells.simplified.contracted_edges));
   report.set("mesh.removed_bigons", static_cast<std::int64_t>(cells.simplified.removed_bigons));
+  report.set("mesh.removed_loops", static_cast<std::int64_t>(cells.simplified.removed_loops));
   report.set("mesh.dissolved_nodes", static_cast<std::int64_t>(cells.simplified.dissolved_nodes));
   report.set("mesh.divided_edges", static_cast<std::int64_t>(cells.simplified.split_edges));
   report.set("mesh.diagonals", static_cast<std::int64_t>(cells.divided.diagonals));

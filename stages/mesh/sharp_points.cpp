@@ -27,6 +27,9 @@ constexpr double kMostOff = 0.45;
 /// How much farther off faces around a moved vertex may be than those around one that is added:
 /// that makes no odd faces.
 constexpr double kMovedOff = 1.5;
+/// A vertex is at a tip up to this share of its longest edge, and moved there however far off faces
+/// are, as they are so already.
+constexpr double kAtTip = 0.2;
 
 /// Corners that no feature or boundary line comes to.
 std::vector<Index> sharp_points(const TriMesh& mesh) {
@@ -90,8 +93,8 @@ class SharpPoints {
     }
     for (const Index v : corners) {
       if (!may_move(v, place)) continue;
-      const double moved = farthest(v, place);
-      if (moved > std::min(most, kMovedOff * spokes.off)) continue;
+      const bool is_there = distance(v) <= kAtTip * longest_edge(v);
+      if (!is_there && farthest(v, place) > std::min(most, kMovedOff * spokes.off)) continue;
       put(v, tip);
       return true;
     }
@@ -156,6 +159,12 @@ class SharpPoints {
       result.push_back(faces_[f][(static_cast<std::size_t>(i) + 1) % faces_[f].size()]);
     }
     return result;
+  }
+
+  [[nodiscard]] double longest_edge(Index v) const {
+    double longest = 0;
+    for (const Index w : neighbours(v)) longest = std::max(longest, (at(w) - at(v)).norm());
+    return longest;
   }
 
   /// How far a polygon is off the surface, in the middles of the edges and triangles it is cut

@@ -34,12 +34,13 @@ Vec3 newell_after_move(const PolygonGraph& graph, const DartLoop& cell, Index mo
   return normal;
 }
 
-/// Sum of the unit normals of the surface at a cell's corners, one of them moved.
+/// Sum of the unit normals of the surface at a cell's corners, one of them moved; zero where all
+/// are on features or boundaries: the normal there may be that of the other side.
 Vec3 surface_normal(const PolygonGraph& graph, const DartLoop& cell, Index moved, Index target) {
   Vec3 sum = Vec3::Zero();
   for (const Index d : cell) {
-    const Index n = graph.graph().from(d);
-    sum += graph.surface_normal(n == moved ? target : n);
+    const Index n = graph.graph().from(d) == moved ? target : graph.graph().from(d);
+    if (graph.rank(n) == NodeRank::line) sum += graph.surface_normal(n);
   }
   return sum;
 }
@@ -56,9 +57,9 @@ bool keeps_faces(const PolygonGraph& graph, Index dart) {
     if (after.dot(before) < kLeastTurnCosine * after.norm() * before.norm()) return false;
     if (!(after.norm() > 0.02 * before.norm())) return false;
     // Many small turns would turn a small closed component inside out.
-    const Index from = g.from(dart);
-    if (before.dot(surface_normal(graph, cell, kNone, kNone)) > 0 &&
-        !(after.dot(surface_normal(graph, cell, from, g.to(dart))) > 0)) {
+    const Vec3 outward = surface_normal(graph, cell, g.from(dart), g.to(dart));
+    if (before.dot(surface_normal(graph, cell, kNone, kNone)) > 0 && !outward.isZero(0) &&
+        !(after.dot(outward) > 0)) {
       return false;
     }
   }
@@ -236,6 +237,42 @@ void divide_bent_edges(PolygonGraph& graph, const LocalSize& size, SimplifyCount
   }
 }
 
+/// Joins a node to the corner of the cell left of a dart that leaves it that is farthest from it
+/// along the outline.
+void join_across(PolygonGraph& graph, Index dart) {
+  const DartLoop cell = graph.cell(dart);
+  const Index node = graph.graph().from(dart);
+  double around = 0;
+  for (const Index d : cell) around += graph.length(d);
+  double way = 0;
+  double farthest = 0;
+  Index best = kNone;
+  for (const Index d : cell) {
+    const double away = std::min(way, around - way);
+    way += graph.length(d);
+    if (away <= farthest || graph.find_edge(dart, graph.graph().from(d)) != kNone) continue;
+    farthest = away;
+    best = d;
+  }
+  if (best != kNone && graph.graph().from(best) != node) graph.connect(dart, best);
+}
+
+/// Removes lines around cells that are so small that dividing them in three would leave edges that
+/// are too short, as around the tip of a cone. Their nodes are at the tip then.
+void remove_small_loops(PolygonGraph& graph, const LocalSize& size, double shortest,
+                        SimplifyCounts& counts) {
+  const DartGraph& g = graph.graph();
+  for (Index d = 0; d < g.dart_count(); ++d) {
+    if (!g.is_alive(d) || g.next(d) != d || graph.is_barrier(d) || graph.is_hole(d)) continue;
+    if (graph.length(d) / 3 >= shortest * size_at_edge(graph, size, d)) continue;
+    if (graph.degree(d) != 4) continue;  // what ends in the loop would end nowhere
+    const Index first = g.next(DartGraph::opposite(d));
+    graph.remove_edge(d);
+    ++counts.removed_loops;
+    for (const Index leaving : {first, g.rotate_ccw(first)}) join_across(graph, leaving);
+  }
+}
+
 /// Divides loops in three and all but one of several edges between two nodes in two.
 void separate_edges(PolygonGraph& graph, SimplifyCounts& counts) {
   const DartGraph& g = graph.graph();
@@ -333,6 +370,7 @@ SimplifyCounts simplify(PolygonGraph& graph, const LocalSize& size, const Simpli
   for (Index d = 0; d < g.dart_count(); ++d) {
     if (g.is_alive(d) && try_dissolve(graph, d)) ++counts.dissolved_nodes;
   }
+  remove_small_loops(graph, size, limits.shortest, counts);
   separate_edges(graph, counts);
   divide_bent_edges(graph, size, counts);
   return counts;

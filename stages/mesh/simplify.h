@@ -10,6 +10,7 @@ namespace strake {
 struct SimplifyCounts {
   Index contracted_edges = 0;
   Index removed_bigons = 0;
+  Index removed_loops = 0;
   Index dissolved_nodes = 0;
   Index split_edges = 0;  ///< loops, double edges and strongly bent features and boundaries
 };
@@ -24,8 +25,8 @@ struct SimplifyLimits {
 };
 
 /// Brings the cells into the form of a polygon mesh: merges crossings that nearly coincide by edge
-/// contraction under the link condition, removes cells of two sides, and divides edges until no
-/// two nodes are joined twice.
+/// contraction under the link condition, removes cells of two sides and tiny ones of one, and
+/// divides edges until no two nodes are joined twice.
 ///
 /// Never merges across feature or boundary lines, and never changes the topology of the surface.
 SimplifyCounts simplify(PolygonGraph& graph, const LocalSize& size, const SimplifyLimits& limits);

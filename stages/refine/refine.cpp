@@ -57,6 +57,9 @@ constexpr std::int64_t kRoundsInVain = 4;
 constexpr std::int64_t kRoundsOfCount = 4;
 /// Times that cells are left out because of what dividing them would do.
 constexpr int kMostRetreats = 8;
+/// An edge below this share of the mean one of its cell is not divided for the others' sake: half
+/// of it would be next to nothing, and half of that after another round.
+constexpr double kShortSide = 0.05;
 /// Vertices that dividing a cell gives, about.
 constexpr double kVerticesPerCell = 1.5;
 
@@ -224,20 +227,36 @@ class Refinement {
     });
   }
 
+  /// Which edges of a face are short against the others.
+  [[nodiscard]] std::vector<char> short_sides(std::span<const Index> face) const {
+    std::vector<double> lengths;
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      lengths.push_back((positions_[face[(i + 1) % face.size()]] - positions_[face[i]]).norm());
+    }
+    const double around = std::accumulate(lengths.begin(), lengths.end(), 0.0);
+    std::vector<char> is_short;
+    for (const double length : lengths) {
+      is_short.push_back(length * static_cast<double>(face.size()) < kShortSide * around ? 1 : 0);
+    }
+    return is_short;
+  }
+
   /// Which edges of a cell get a vertex: those that are beyond the tolerance, of a quad with the
-  /// ones opposite; where none is, those across the direction that the cell is bent in.
+  /// ones opposite unless they are short; where none is, those across the direction that the cell
+  /// is bent in.
   [[nodiscard]] std::vector<std::size_t> edges_to_divide(const ComparedSurfaces& surfaces,
                                                          const Target& target,
                                                          double tolerance) const {
     const std::span<const Index> face = quads_.mesh.face(target.face);
     const std::size_t n = face.size();
     if (n == 3) return {0, 1, 2};
+    const std::vector<char> is_short = short_sides(face);
     std::vector<std::size_t> beyond;
     for (std::size_t i = 0; i < n; ++i) {
       const auto at = [&](std::size_t e) {
         return is_beyond(surfaces.input(), face[e % n], face[(e + 1) % n], tolerance);
       };
-      if (at(i) || (n == 4 && at(i + 2))) beyond.push_back(i);
+      if (at(i) || (n == 4 && is_short[i] == 0 && at(i + 2))) beyond.push_back(i);
     }
     if (!beyond.empty()) return beyond;
     std::vector<Vec3> corners;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "common/geometry/poly_topology/poly_topology.h"
 #include "tests/support/result_cases.h"
@@ -45,6 +46,25 @@ TEST(MeetSharpPoints, MovesAVertexThatIsNear) {
   EXPECT_EQ(at_tip(c, quads), 1);
   EXPECT_EQ(quads.mesh.corners, c.quads.mesh.corners);
   EXPECT_EQ(quads.mesh.vertex_count(), c.quads.mesh.vertex_count());
+}
+
+// A block in the next cell makes the vertex beside the tip a bad one, whether it is moved or not.
+TEST(MeetSharpPoints, PutsNoVertexBesideAnother) {
+  support::Case c = support::grid(kFine, 4, [&](double x, double y) {
+    const bool is_on_block = std::max(std::abs(x - 0.375), std::abs(y - 0.375)) < 0.11;
+    return 2 - (Vec2(x, y) - Vec2(21.0 / kFine, 0.5)).norm() + (is_on_block ? 2.0 : 0.0);
+  });
+  const Index tip = 20 * (kFine + 1) + 21;
+  c.mesh.is_corner[tip] = 1;
+  QuadMesh quads;
+  EXPECT_EQ(meet(c, true, quads), 1);
+  EXPECT_EQ(quads.mesh.vertex_count(), c.quads.mesh.vertex_count());
+  const Vec3 place = c.mesh.positions[tip] + c.mesh.origin;
+  std::vector<double> distances;
+  for (const Vec3& p : quads.mesh.positions) distances.push_back((p - place).norm());
+  std::ranges::sort(distances);
+  EXPECT_EQ(distances[0], 0);
+  EXPECT_GT(distances[1], 0.2);
 }
 
 // The corners of the cell are on the boundary.

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <set>
+#include <vector>
 
 #include "common/core/poly_mesh.h"
 #include "tests/support/mesh_support.h"
@@ -130,6 +133,92 @@ TEST(Simplify, BringsTheLastCrossingOfAFeatureToItsEnd) {
   EXPECT_EQ(nodes_on_feature(5), (std::set<double>{2, 5}));
   EXPECT_EQ(nodes_on_feature(5.25), (std::set<double>{2, 5.25}));
   EXPECT_EQ(nodes_on_feature(7), (std::set<double>{2, 4})) << "too far away";
+}
+
+/// Length of the shortest edge over that of the mean one.
+double shortest_over_mean(const PolygonGraph& graph) {
+  const DartGraph& g = graph.graph();
+  double shortest = std::numeric_limits<double>::infinity();
+  double sum = 0;
+  int edges = 0;
+  for (Index d = 0; d < g.dart_count(); d += 2) {
+    if (!g.is_alive(d)) continue;
+    const double length = (graph.position(g.to(d)) - graph.position(g.from(d))).norm();
+    shortest = std::min(shortest, length);
+    sum += length;
+    ++edges;
+  }
+  return shortest * edges / sum;
+}
+
+/// A unit cube of triangles around a point of each side, which is this far from one of its corners.
+TriMesh cube_with_points(double distance) {
+  PolyMesh soup;
+  for (Index v = 0; v < 8; ++v) soup.positions.emplace_back(v & 1, v >> 1 & 1, v >> 2);
+  const std::array<std::array<Index, 4>, 6> sides = {
+      {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
+  for (std::size_t s = 0; s < 6; ++s) {
+    const Vec3& corner = soup.positions[sides[s][s % 4]];
+    const Vec3& beyond = soup.positions[sides[s][(s + 2) % 4]];
+    const Index inside = soup.vertex_count();
+    soup.positions.emplace_back(corner + distance * (beyond - corner).normalized());
+    for (std::size_t i = 0; i < 4; ++i) {
+      soup.add_face(std::array<Index, 3>{sides[s][i], sides[s][(i + 1) % 4], inside});
+    }
+  }
+  TriMesh mesh = support::plain_tri_mesh(soup);
+  for (Index v = 0; v < 8; ++v) mesh.is_corner[v] = 1;
+  return mesh;
+}
+
+// The normals of all other corners of a cell may be those of the sides beyond.
+TEST(Simplify, MergesNodesBesideCorners) {
+  const TriMesh mesh = cube_with_points(1e-3);
+  PolygonGraph graph = cells_of(
+      mesh, [](const Vec3&, const Vec3&) { return true; },
+      [](const Vec3& a, const Vec3& b) { return std::abs((b - a).norm() - 1) < 1e-9; });
+  const SimplifyCounts counts = simplify(graph, [](const SurfaceNode&) { return 1.0; },
+                                         {.shortest = 0.3, .corner_distance = 0});
+  EXPECT_EQ(counts.contracted_edges, 6);
+  EXPECT_EQ(count(graph.graph()).euler(), 2);
+  EXPECT_GT(shortest_over_mean(graph), 0.5);
+}
+
+// A line that goes around the tip of a cone is such a loop. Where it was is a vertex of four edges.
+TEST(Simplify, RemovesTinyLoops) {
+  const auto graph_with_loop = [](const TriMesh& mesh, double width) {
+    const double end = 2 + width;
+    return cells_of(mesh, [=](const Vec3& a, const Vec3& b) {
+      const auto is_at = [&](double x, double y) {
+        return x == 2 || x == end || y == 2 || y == end;
+      };
+      const bool is_on_loop = std::min({a.x(), b.x(), a.y(), b.y()}) >= 2 &&
+                              std::max({a.x(), b.x(), a.y(), b.y()}) <= end;
+      if (is_on_loop) return (a.x() == b.x() || a.y() == b.y()) && is_at(a.x(), a.y());
+      return (a.x() == 2 && b.x() == 2 && std::max(a.y(), b.y()) <= 2) ||
+             (a.y() == 2 && b.y() == 2 && std::max(a.x(), b.x()) <= 2);
+    });
+  };
+  for (const double width : {0.004, 1.0}) {
+    const std::vector<double> places = {0, 1, 2, 2 + width, 4};
+    const TriMesh mesh = grid_mesh({places, places});
+    PolygonGraph graph = graph_with_loop(mesh, width);
+    const SimplifyCounts counts =
+        simplify(graph, [](const SurfaceNode&) { return 2.0; }, {.shortest = 0.3});
+    EXPECT_TRUE(is_consistent(graph.graph()));
+    EXPECT_EQ(count(graph.graph()).euler(), 2);
+    EXPECT_EQ(count(graph.graph()).loose_ends, 0);
+    EXPECT_EQ(counts.removed_loops, width < 0.1 ? 1 : 0);
+    EXPECT_GT(shortest_over_mean(graph), 0.3);
+    const DartGraph& g = graph.graph();
+    Index degree = 0;
+    for (Index d = 0; d < g.dart_count(); ++d) {
+      if (g.is_alive(d) && (graph.position(g.from(d)) + mesh.origin).isApprox(Vec3(2, 2, 0))) {
+        degree = graph.degree(d);
+      }
+    }
+    EXPECT_EQ(degree, 4);
+  }
 }
 
 }  // namespace

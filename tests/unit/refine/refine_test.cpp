@@ -12,6 +12,7 @@
 #include "common/geometry/cell_error/tolerance_check.h"
 #include "common/geometry/face_crossings/face_crossings.h"
 #include "common/geometry/poly_topology/face_shape.h"
+#include "common/geometry/poly_topology/poly_edges.h"
 #include "common/geometry/poly_topology/poly_topology.h"
 #include "common/geometry/samples/samples.h"
 #include "stages/refine/surface_points.h"
@@ -103,6 +104,56 @@ TEST(Refine, CutsCellsThatOthersWouldCutBeyondTheTolerance) {
   EXPECT_TRUE(check_tolerance(ComparedSurfaces(c.mesh, result), 0.1).empty());
   EXPECT_TRUE(cells_in_doubt(result).empty());
   EXPECT_EQ(sides(refined(c, within(0.7)).mesh), (std::multiset<std::size_t>{5}));
+}
+
+/// One face between an arc over y = 0 and a straight side of this length at y = 1, on a surface of
+/// narrow triangles.
+Case arc_and_short_side(double side) {
+  constexpr Index kPieces = 64;
+  PolyMesh soup;
+  for (Index i = 0; i <= kPieces; ++i) {
+    const double u = double(i) / kPieces;
+    soup.positions.emplace_back(u, 0, u * (1 - u) / 2);
+    soup.positions.emplace_back(0.5 + side * (u - 0.5), 1, 0);
+  }
+  for (Index i = 0; i < 2 * kPieces; i += 2) {
+    soup.add_face(std::array<Index, 3>{i, i + 2, i + 3});
+    soup.add_face(std::array<Index, 3>{i, i + 3, i + 1});
+  }
+  Case c;
+  c.mesh = support::plain_tri_mesh(soup);
+  constexpr Index kEnd = 2 * kPieces;
+  for (const auto& [v, face, corner] :
+       {std::array<Index, 3>{0, 0, 0}, {kEnd, kEnd - 2, 1}, {kEnd + 1, kEnd - 2, 2}, {1, 1, 2}}) {
+    c.mesh.is_corner[v] = 1;
+    c.quads.mesh.positions.emplace_back(soup.positions[v]);
+    c.quads.provenance.face.push_back(face);
+    c.quads.provenance.barycentric.push_back({0, 0, 0});
+    c.quads.provenance.barycentric.back()[corner] = 1;
+    c.quads.provenance.lines.push_back({kNone, kNone});
+  }
+  c.quads.mesh.add_face(std::array<Index, 4>{0, 1, 2, 3});
+  return c;
+}
+
+/// The side opposite the arc would be halved in each round.
+TEST(Refine, DoesNotDivideAShortSideWithTheOneOpposite) {
+  constexpr double kSide = 0.02;
+  const Case c = arc_and_short_side(kSide);
+  const QuadMesh result = refined(c, within(3e-3));
+  EXPECT_TRUE(check_tolerance(ComparedSurfaces(c.mesh, result), 3e-3).empty());
+  EXPECT_TRUE(analyse(result.mesh).is_oriented_manifold());
+  const PolyEdges edges = collect_edges(result.mesh);
+  double shortest = 1;
+  double sum = 0;
+  for (const auto& [a, b] : edges.vertices) {
+    const double length = (result.mesh.positions[b] - result.mesh.positions[a]).norm();
+    shortest = std::min(shortest, length);
+    sum += length;
+  }
+  EXPECT_GT(edges.edge_count(), 16);
+  EXPECT_GE(shortest, 0.9 * kSide);
+  EXPECT_GT(shortest * edges.edge_count() / sum, 0.01);
 }
 
 TEST(Refine, LeavesWhatIsWithinTheTolerance) {
