@@ -11,7 +11,7 @@ ELSEWHERE = {
     "scripts/run_examples": ("tests/CMakeLists.txt", "scripts/run_examples"),
     "cmake --preset release && cmake --build build": ("scripts/test", 'cmake --preset "$preset"'),
     "cmake --build build": ("scripts/test", 'cmake --build --preset "$preset"'),
-    "scripts/check_clang": ("scripts/test", "scripts/check_clang"),
+    "scripts/check_clang": ("scripts/test", "scripts/check_clang build-clang"),
     "scripts/check_cppcheck": ("scripts/test", "scripts/check_cppcheck"),
     "ctest --preset release -R Trace": ("scripts/test", 'ctest --preset "$preset"'),
     "ctest --preset release -L slurm": ("scripts/test", 'ctest --preset "$preset"'),

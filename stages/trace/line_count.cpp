@@ -77,8 +77,7 @@ LineCount count_places(const TriMesh& mesh, const LineSet& lines) {
     while (end < chords.size() && chords[end].face == chords[begin].face) ++end;
     count.crossings += count_alternating(chords, begin, end);
   }
-  count.on_barriers =
-      std::unique(on_barriers.begin(), on_barriers.end()) - on_barriers.begin();
+  count.on_barriers = std::unique(on_barriers.begin(), on_barriers.end()) - on_barriers.begin();
   count.corners = std::count(mesh.is_corner.begin(), mesh.is_corner.end(), 1);
   return count;
 }

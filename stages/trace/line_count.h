@@ -9,10 +9,9 @@ namespace strake {
 
 /// What lines make vertices of.
 struct LineCount {
-  std::int64_t crossings = 0;  ///< of two lines inside the surface, in the interior of a face
-  std::int64_t on_barriers =
-      0;                     ///< places on feature and boundary edges, but for their vertices
-  std::int64_t corners = 0;  ///< of the mesh's feature and boundary lines
+  std::int64_t crossings = 0;    ///< of two lines inside the surface, in the interior of a face
+  std::int64_t on_barriers = 0;  ///< places on feature and boundary edges, but for their vertices
+  std::int64_t corners = 0;      ///< of the mesh's feature and boundary lines
 
   /// Vertices of the mesh that these lines give, about: of 122 models and counts as many as were
   /// made on average, with a standard deviation of a tenth.

@@ -200,7 +200,9 @@ SurfaceDistance::SurfaceDistance(const std::vector<Vec3>& positions, const Trian
                              triangles_.data(), 0, 3 * sizeof(unsigned), triangles_.size());
   for (std::size_t v = 0; v < positions_.size(); ++v) {
     const Vec3 p = scale_ * (positions_[v] - centre_);
-    Eigen::Map<Place, Eigen::Aligned16>(places + kPlaceSize * v) << p.cast<float>().array(), 0.0F;
+    Eigen::Map<Place, Eigen::Aligned16> place(places + kPlaceSize * v);
+    place.head<3>() = p.cast<float>().array();
+    place[3] = 0;
   }
   rtcSetGeometryPointQueryFunction(geometry, visit_triangle);
   rtcCommitGeometry(geometry);

@@ -24,10 +24,6 @@ TriMesh rough_torus() {
   return support::plain_tri_mesh(make_sample(SampleKind::torus, options));
 }
 
-double edge_length(const TriMesh& mesh, Index h) {
-  return (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).norm();
-}
-
 /// All edges as long as in space, and the corners counter-clockwise.
 void expect_isometric(const TriMesh& mesh, const FaceChart& chart, double tolerance) {
   for (int i = 0; i < 3; ++i) {

@@ -68,12 +68,13 @@ class LineCounts : public ::testing::TestWithParam<SampleKind> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(
-    Samples, LineCounts,
-    ::testing::Values(SampleKind::plane, SampleKind::sphere, SampleKind::cylinder,
-                      SampleKind::open_cylinder, SampleKind::torus, SampleKind::saddle,
-                      SampleKind::part),
-    [](const auto& test) { return sample_names()[static_cast<std::size_t>(test.param)]; });
+INSTANTIATE_TEST_SUITE_P(Samples, LineCounts,
+                         ::testing::Values(SampleKind::plane, SampleKind::sphere,
+                                           SampleKind::cylinder, SampleKind::open_cylinder,
+                                           SampleKind::torus, SampleKind::saddle, SampleKind::part),
+                         [](const auto& test) {
+                           return sample_names()[static_cast<std::size_t>(test.param)];
+                         });
 
 TEST_P(LineCounts, CrossingsAreThoseOfTheChords) {
   const support::Prepared surface = prepared();
@@ -117,8 +118,7 @@ TEST(LineCount, AGivenScaleIsKept) {
   std::vector<double> crossings;
   for (const double scale : {1.0, 2.0}) {
     options.spacing_scale = scale;
-    crossings.push_back(
-        double(count_places(part.mesh, support::trace(part, options)).vertices()));
+    crossings.push_back(double(count_places(part.mesh, support::trace(part, options)).vertices()));
   }
   EXPECT_LT(crossings[1], 0.6 * crossings[0]);
 }
@@ -134,7 +134,7 @@ TEST(ScaleFor, GivesWhatIsWanted) {
                   wanted, 1e-9 * wanted);
     }
   }
-  EXPECT_EQ(scale_for({100, 10, 50}, 40), 4);    // corners alone are more
+  EXPECT_EQ(scale_for({100, 10, 50}, 40), 4);   // corners alone are more
   EXPECT_EQ(scale_for({0, 0, 8}, 1000), 0.25);  // no lines yet
 }
 

@@ -82,10 +82,6 @@ struct RandomPlane {
   }
 };
 
-double edge_length(const TriMesh& mesh, Index h) {
-  return (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).norm();
-}
-
 TEST(Grading, IsTheLargestFunctionBelowTheWantedOneWithThatSlope) {
   const RandomPlane plane(1);
   const TriMesh& mesh = plane.mesh;
