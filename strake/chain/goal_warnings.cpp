@@ -23,7 +23,7 @@ void warn_of_count(Session& session, const LineAim& aim) {
   std::string why = "the shape, --max-spacing or the mesh's own resolution do not allow it";
   if (is_by_corners) {
     why = fmt::format(
-        "{} corners of feature and boundary lines stay; a larger --feature-angle keeps fewer",
+        "feature and boundary lines have {} corners; a larger --feature-angle makes fewer features",
         corners);
   } else if (reached < aim.wanted && is_input_spent(session)) {
     why = fmt::format("decimation gives no more vertices than the {} of the input",

@@ -163,7 +163,7 @@ TEST(Remesh, CornersMergeWhereTheyAreTooManyForACount) {
 }
 
 // A torus with so small an angle that all of its edges are features.
-TEST(Remesh, SaysThatCornersStay) {
+TEST(Remesh, SaysThatCornersAreTooMany) {
   SampleOptions sample;
   sample.faces = 500;
   RemeshOptions options;
@@ -175,9 +175,9 @@ TEST(Remesh, SaysThatCornersStay) {
     remesh({make_sample(SampleKind::torus, sample), {}, {}, {}}, options, listener);
     return listener.said;
   };
-  EXPECT_NE(said_at(2).find("a larger --feature-angle keeps fewer"), std::string::npos)
+  EXPECT_NE(said_at(2).find("a larger --feature-angle makes fewer features"), std::string::npos)
       << said_at(2);
-  EXPECT_EQ(said_at(180).find("a larger --feature-angle keeps fewer"), std::string::npos);
+  EXPECT_EQ(said_at(180).find("a larger --feature-angle makes fewer features"), std::string::npos);
 }
 
 }  // namespace
