@@ -158,7 +158,7 @@ std::string Chain::reach_goal(Session& session) const {
   // Counts are met by what faces are made of the lines, not by the lines themselves.
   const Option& scale = trace.option("spacing-scale");
   std::optional<OtherValue> once;
-  if (scale.value().empty()) once.emplace(scale, "1");
+  if (!wanted_count().empty() && scale.value().empty()) once.emplace(scale, "1");
   for (const Counted counted : {Counted::vertices, Counted::faces}) {
     const char* name = counted == Counted::vertices ? "vertices" : "faces";
     const std::string wanted = trace.option(name).value();

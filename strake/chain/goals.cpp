@@ -113,7 +113,7 @@ void trace_apart(Session& session, const GoalStages& stages, CrossingPlaces& cro
     if (share <= most) return;
     most = kMended;
     session.say(fmt::format("{:.0f} % of the faces cross; tracing closer lines", 100 * share));
-    scale_lines(stages, kCloser * std::stod(stages.trace.option("spacing-scale").value()));
+    scale_lines(stages, kCloser * line_scale(stages));
     trace_mesh_and_fit(session, stages);
   }
 }
@@ -126,7 +126,6 @@ void trace_apart(Session& session, const GoalStages& stages, CrossingPlaces& cro
 /// \throw ToleranceError where nothing helps
 Attempt trace_within(Session& session, const GoalStages& stages, CrossingPlaces& crossing,
                      int times_everywhere) {
-  const Option& scale = stages.trace.option("spacing-scale");
   std::optional<Attempt> tangled;
   for (int trial = 0;; ++trial) {
     trace_apart(session, stages, crossing, tangled ? kMended : kTangled);
@@ -140,7 +139,7 @@ Attempt trace_within(Session& session, const GoalStages& stages, CrossingPlaces&
         return found;
       }
       tangled = std::move(found);
-      scale_lines(stages, kCloser * std::stod(scale.value()));
+      scale_lines(stages, kCloser * line_scale(stages));
       continue;
     }
     const bool is_once = stages.refine.option("refine-rounds").value() == "0";
@@ -156,7 +155,7 @@ Attempt trace_within(Session& session, const GoalStages& stages, CrossingPlaces&
       want_closer_only_there(session, stages, miss->places(), kCloserThere);
     } else {
       session.say("dividing cells does not reach the tolerance; tracing closer lines");
-      scale_lines(stages, kCloser * std::stod(scale.value()));
+      scale_lines(stages, kCloser * line_scale(stages));
     }
   }
   // What was made anew is no better, or not within the tolerance.
@@ -310,7 +309,7 @@ bool trace_freely(Session& session, const GoalStages& stages, std::int64_t feedb
   for (int i = 0;
        i < kMostTimesCloser && share > kTooManyCross && may_be_too_coarse(session, "quads"); ++i) {
     session.say(fmt::format("{:.0f} % of the faces cross; tracing closer lines", 100 * share));
-    scale_lines(stages, kCloser * std::stod(stages.trace.option("spacing-scale").value()));
+    scale_lines(stages, kCloser * line_scale(stages));
     trace_and_mesh(session, stages);
     share = crossing_share(session, crossing);
   }

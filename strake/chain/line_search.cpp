@@ -125,7 +125,7 @@ bool goes_by_errors(const Session& session, const GoalStages& stages) {
 bool search_scale(Session& session, const GoalStages& stages, const LineAim& aim,
                   bool with_strips) {
   const Option& option = stages.trace.option("spacing-scale");
-  CountSearch search(aim.count, std::stod(option.value()), option.min, option.max);
+  CountSearch search(aim.count, line_scale(stages), option.min, option.max);
   struct Found {
     Session session;
     double scale;

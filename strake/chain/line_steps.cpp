@@ -25,9 +25,9 @@ constexpr double kEvenExcess = 1.25;
 /// between the mean of a cell and its largest one, and fitting lowers it. At 0.6 more cells are
 /// divided, which leaves fewer quads; at less there are more vertices.
 constexpr double kAimedAt = 0.45;
-/// Scale on distances that were those of lines, and have theirs in them. Where a count is wanted
-/// the stage scales them to it first, and the scale found for that stays.
-constexpr const char* kScaleOfLines = "1";
+/// Scale on distances that were those of lines, and have theirs in them: none. Where a count is
+/// wanted the stage scales them to it first, and the scale found for that stays.
+constexpr const char* kScaleOfLines = "";
 /// Rounds of fitting before the worst cells are divided: enough to see where errors will stay.
 constexpr int kRoundsBeforeDividing = 3;
 
@@ -99,12 +99,17 @@ void scale_lines(const GoalStages& stages, double scale) {
   option.parse_into(fmt::format("{}", std::clamp(scale, option.min, option.max)));
 }
 
+double line_scale(const GoalStages& stages) {
+  const std::string value = stages.trace.option("spacing-scale").value();
+  return value.empty() ? 1 : std::stod(value);
+}
+
 void feed_back(Session& session, const GoalStages& stages, const LineAim& aim) {
   want_by_errors(session, stages);
   const double excess = kFeedbackExcess *
                         static_cast<double>(count_of(session, "quads", aim.counted)) /
                         static_cast<double>(aim.count);
-  scale_lines(stages, std::stod(stages.trace.option("spacing-scale").value()) * std::sqrt(excess));
+  scale_lines(stages, line_scale(stages) * std::sqrt(excess));
 }
 
 void even_out(Session& session, const GoalStages& stages) {
@@ -133,7 +138,7 @@ void want_closer_only_there(Session& session, const GoalStages& stages,
   const Option& option = stages.trace.option("spacing-scale");
   if (session.has("size")) {
     SizeField wanted = session.get<SizeField>("size");
-    const double scale = std::stod(option.value());
+    const double scale = line_scale(stages);
     for (auto* distances : {&wanted.along, &wanted.across}) {
       for (double& d : *distances) d *= scale;
     }

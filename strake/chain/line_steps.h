@@ -32,6 +32,8 @@ void fit_refined(Session& session, const GoalStages& stages);
 
 /// Sets the scale of all distances, within what it may be.
 void scale_lines(const GoalStages& stages, double scale);
+/// The factor on all distances between lines; 1 where none is given.
+double line_scale(const GoalStages& stages);
 
 /// Wants distances for even errors, and corrects the scale of all of them by the count.
 /// \pre traced and meshed

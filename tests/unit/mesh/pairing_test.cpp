@@ -237,6 +237,7 @@ TEST_P(PairedSurfaces, HaveFewOddFacesNoMoreConcaveOnesAndTheirFeatures) {
   const support::Prepared prepared = support::prepare(make_sample(GetParam(), sample));
   TraceOptions options;
   options.vertices = 700;
+  options.spacing_scale = 1;
   const LineSet lines = support::trace(prepared, options);
   const QuadMesh plain = support::mesh(prepared, lines, {.odd_price = 0});
   const QuadMesh paired = support::mesh(prepared, lines, {.odd_price = 1});
