@@ -8,7 +8,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -227,18 +226,14 @@ class Refinement {
     });
   }
 
-  /// Which edges of a face are short against the others.
-  [[nodiscard]] std::vector<char> short_sides(std::span<const Index> face) const {
-    std::vector<double> lengths;
-    for (std::size_t i = 0; i < face.size(); ++i) {
-      lengths.push_back((positions_[face[(i + 1) % face.size()]] - positions_[face[i]]).norm());
-    }
-    const double around = std::accumulate(lengths.begin(), lengths.end(), 0.0);
-    std::vector<char> is_short;
-    for (const double length : lengths) {
-      is_short.push_back(length * static_cast<double>(face.size()) < kShortSide * around ? 1 : 0);
-    }
-    return is_short;
+  /// Whether an edge of a face is short against the others.
+  [[nodiscard]] bool is_short(std::span<const Index> face, std::size_t edge) const {
+    const auto length = [&](std::size_t i) {
+      return (positions_[face[(i + 1) % face.size()]] - positions_[face[i]]).norm();
+    };
+    double around = 0;
+    for (std::size_t i = 0; i < face.size(); ++i) around += length(i);
+    return length(edge) * static_cast<double>(face.size()) < kShortSide * around;
   }
 
   /// Which edges of a cell get a vertex: those that are beyond the tolerance, of a quad with the
@@ -250,13 +245,12 @@ class Refinement {
     const std::span<const Index> face = quads_.mesh.face(target.face);
     const std::size_t n = face.size();
     if (n == 3) return {0, 1, 2};
-    const std::vector<char> is_short = short_sides(face);
     std::vector<std::size_t> beyond;
     for (std::size_t i = 0; i < n; ++i) {
       const auto at = [&](std::size_t e) {
         return is_beyond(surfaces.input(), face[e % n], face[(e + 1) % n], tolerance);
       };
-      if (at(i) || (n == 4 && is_short[i] == 0 && at(i + 2))) beyond.push_back(i);
+      if (at(i) || (n == 4 && !is_short(face, i) && at(i + 2))) beyond.push_back(i);
     }
     if (!beyond.empty()) return beyond;
     std::vector<Vec3> corners;

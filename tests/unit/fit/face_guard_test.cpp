@@ -23,15 +23,22 @@ TriMesh square() {
   return mesh;
 }
 
+/// A quad on it whose first vertex lies 0.4 along the first side. \param off  of the second vertex,
+/// from the corner where that side ends
+QuadMesh quad_on_square(double off) {
+  QuadMesh quads;
+  quads.mesh.positions = {Vec3(0.4, 0, 0), Vec3(1, off, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)};
+  quads.mesh.add_face(std::array<Index, 4>{0, 1, 2, 3});
+  quads.provenance.face = {0, 0, 0, 1};
+  quads.provenance.barycentric = {{0.6, 0.4, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 1}};
+  return quads;
+}
+
 /// A vertex that slides to the corner where its line ends, and where another one is up to rounding,
 /// leaves angles of any size.
 TEST(FaceGuard, SidesKeepALength) {
   const TriMesh mesh = square();
-  QuadMesh quads;
-  quads.mesh.positions = {Vec3(0.4, 0, 0), Vec3(1, 1e-17, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)};
-  quads.mesh.add_face(std::array<Index, 4>{0, 1, 2, 3});
-  quads.provenance.face = {0, 0, 0, 1};
-  quads.provenance.barycentric = {{0.6, 0.4, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 1}};
+  const QuadMesh quads = quad_on_square(1e-17);
   const SurfaceDistance surface(mesh.positions, mesh.faces);
   fitting::VertexPlaces places(mesh, surface, quads);
   fitting::FaceGuard guard(quads.mesh, places);
@@ -49,11 +56,7 @@ TEST(FaceGuard, SidesKeepALength) {
 /// A quarter of the way in each round would be all but all of it.
 TEST(FaceGuard, VerticesDoNotSlideOntoEachOther) {
   const TriMesh mesh = square();
-  QuadMesh quads;
-  quads.mesh.positions = {Vec3(0.4, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)};
-  quads.mesh.add_face(std::array<Index, 4>{0, 1, 2, 3});
-  quads.provenance.face = {0, 0, 0, 1};
-  quads.provenance.barycentric = {{0.6, 0.4, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 1}};
+  const QuadMesh quads = quad_on_square(0);
   const SurfaceDistance surface(mesh.positions, mesh.faces);
   fitting::VertexPlaces places(mesh, surface, quads);
   fitting::FaceGuard guard(quads.mesh, places);
