@@ -25,14 +25,13 @@ constexpr int kMostThinnings = 12;
 constexpr int kThinningsInVain = 3;
 /// Largest growth of the ball around a fault in which inlays are thinned out less.
 constexpr double kLargestScale = 1024;
+constexpr Index kAnyNumber = std::numeric_limits<Index>::max();
 const Ball kEverywhere = {Vec3::Zero(), std::numeric_limits<double>::infinity()};
 
-/// Gives up the inlays that have many faces for what they take the place of.
-void drop_large(Index cells, std::vector<Inlay>& inlays) {
+/// Whether an inlay has many faces for what it takes the place of.
+bool is_large(const Inlay& inlay, Index cells) {
   const auto few = static_cast<std::size_t>(kMostFacesShare * cells);
-  std::erase_if(inlays, [&](const Inlay& inlay) {
-    return inlay.faces.size() > std::max(few, kMostFacesPerCell * inlay.cells.size());
-  });
+  return inlay.faces.size() > std::max(few, kMostFacesPerCell * inlay.cells.size());
 }
 
 /// Thins inlays out less around faces beyond the tolerance, in as large balls as it takes, and
@@ -78,6 +77,49 @@ std::vector<std::vector<Ball>> balls_around(const InlayHost& host, const std::ve
   return result;
 }
 
+/// As `thin`, until there are more vertices than `most` without large inlays: thinned out less
+/// there are only more.
+void thin_while_few(const InlayHost& host, double distance, Index most,
+                    std::vector<Inlay>& inlays) {
+  const Index cells = host.quads().mesh.face_count();
+  const SurfaceLines lines(host.surfaces().mesh());
+  std::vector<Thinning> thinnings;
+  for (const Inlay& inlay : inlays) thinnings.emplace_back(host.surfaces(), lines, inlay);
+  std::vector<std::size_t> changed(inlays.size());
+  std::iota(changed.begin(), changed.end(), 0);
+  std::size_t fewest = std::numeric_limits<std::size_t>::max();
+  std::vector<Inlay> best = inlays;
+  int in_vain = 0;
+  for (int time = 0; !changed.empty() && in_vain < kThinningsInVain; ++time) {
+    for (const std::size_t s : changed) {
+      inlays[s].faces = thinnings[s].faces(distance);
+    }
+    const Inlaid now = host.with(inlays);
+    const Faults bad = host.beyond(now);
+    std::vector<Index> crossing = host.crossing(now);
+    std::erase_if(crossing, [&](Index f) { return now.inlay[f] == kNone; });
+    if (!bad.any() && crossing.size() < fewest) {
+      fewest = crossing.size();
+      best = inlays;
+      in_vain = 0;
+    } else if (!bad.any()) {
+      ++in_vain;
+    }
+    if (now.quads.mesh.vertex_count() > most &&
+        std::ranges::none_of(inlays, [&](const Inlay& inlay) { return is_large(inlay, cells); })) {
+      break;
+    }
+    const std::size_t levels = time < kMostThinnings ? 1 : Thinning::kLevels;
+    changed = lessen(thinnings, balls_around(host, inlays, now, bad.faces),
+                     balls_around(host, inlays, now, crossing), levels);
+    if (!changed.empty() || !bad.any()) continue;
+    for (std::size_t s = 0; s < inlays.size(); ++s) {  // it is not known where
+      if (thinnings[s].lessen({kEverywhere}, 1, levels)) changed.push_back(s);
+    }
+  }
+  inlays = std::move(best);
+}
+
 }  // namespace
 
 Thinning::Thinning(const ComparedSurfaces& surfaces, const SurfaceLines& lines, const Inlay& inlay)
@@ -112,50 +154,21 @@ bool Thinning::lessen(const std::vector<Ball>& balls, double scale, std::size_t 
 }
 
 void thin(const InlayHost& host, double distance, std::vector<Inlay>& inlays) {
-  const SurfaceLines lines(host.surfaces().mesh());
-  std::vector<Thinning> thinnings;
-  for (const Inlay& inlay : inlays) thinnings.emplace_back(host.surfaces(), lines, inlay);
-  std::vector<std::size_t> changed(inlays.size());
-  std::iota(changed.begin(), changed.end(), 0);
-  std::size_t fewest = std::numeric_limits<std::size_t>::max();
-  std::vector<Inlay> best = inlays;
-  int in_vain = 0;
-  for (int time = 0; !changed.empty() && in_vain < kThinningsInVain; ++time) {
-    for (const std::size_t s : changed) {
-      inlays[s].faces = thinnings[s].faces(distance);
-    }
-    const Inlaid now = host.with(inlays);
-    const Faults bad = host.beyond(now);
-    std::vector<Index> crossing = host.crossing(now);
-    std::erase_if(crossing, [&](Index f) { return now.inlay[f] == kNone; });
-    if (!bad.any() && crossing.size() < fewest) {
-      fewest = crossing.size();
-      best = inlays;
-      in_vain = 0;
-    } else if (!bad.any()) {
-      ++in_vain;
-    }
-    const std::size_t levels = time < kMostThinnings ? 1 : Thinning::kLevels;
-    changed = lessen(thinnings, balls_around(host, inlays, now, bad.faces),
-                     balls_around(host, inlays, now, crossing), levels);
-    if (!changed.empty() || !bad.any()) continue;
-    for (std::size_t s = 0; s < inlays.size(); ++s) {  // it is not known where
-      if (thinnings[s].lessen({kEverywhere}, 1, levels)) changed.push_back(s);
-    }
-  }
-  inlays = std::move(best);
+  thin_while_few(host, distance, kAnyNumber, inlays);
 }
 
 void thin_from(const InlayHost& host, double distance, std::vector<Inlay>& inlays) {
+  const Index cells = host.quads().mesh.face_count();
   const std::vector<Inlay> whole = inlays;
   const auto most =
       static_cast<Index>((1 + kMostAdded) * static_cast<double>(host.quads().mesh.vertex_count()));
   using Price = std::pair<Index, std::size_t>;  // vertices too many, faces that cross
-  Price least{std::numeric_limits<Index>::max(), 0};
+  Price least{kAnyNumber, 0};
   std::vector<Inlay> best;
   for (;;) {
-    thin(host, distance, inlays);
-    drop_large(host.quads().mesh.face_count(), inlays);
+    const bool is_last = distance >= host.tolerance();
+    thin_while_few(host, distance, is_last ? kAnyNumber : most, inlays);
+    std::erase_if(inlays, [&](const Inlay& inlay) { return is_large(inlay, cells); });
     const Inlaid thinned = host.with(inlays);
     const Price price{std::max(0, thinned.quads.mesh.vertex_count() - most),
                       host.crossing(thinned).size()};
@@ -163,7 +176,7 @@ void thin_from(const InlayHost& host, double distance, std::vector<Inlay>& inlay
       least = price;
       best = inlays;
     }
-    if (price == Price{} || distance >= host.tolerance()) break;
+    if (price == Price{} || is_last) break;
     distance = std::min(2 * distance, host.tolerance());
     inlays = whole;
   }

@@ -271,8 +271,9 @@ Attempt mend_by_closer_lines(const Attempt& first, const GoalStages& stages, con
 }
 
 /// Traces, feeds errors back, looks for the count, fits, and traces closer where faces cross.
+/// \param may_be_decimated  no lines are looked for where they are in vain
 void trace_to_count(Session& session, const GoalStages& stages, const LineAim& aim,
-                    std::optional<std::int64_t> feedback_rounds) {
+                    std::optional<std::int64_t> feedback_rounds, bool may_be_decimated) {
   bool has_strips = find_lines(session, stages, aim, feedback_rounds);
   // Corners of features stay where that is possible at this count.
   const Option& distance = stages.mesh.option("corner-distance");
@@ -296,7 +297,11 @@ void trace_to_count(Session& session, const GoalStages& stages, const LineAim& a
   }
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
   const Attempt first = fit_either(session, stages, aim, crossing, has_strips);
-  session = mend_by_closer_lines(first, stages, aim, want_relatively_closer, crossing).done;
+  const bool is_in_vain = may_be_decimated && !first.places.empty() &&
+                          lines_miss_shape(first.done, stages, aim.counted, aim.wanted);
+  session = is_in_vain
+                ? first.done
+                : mend_by_closer_lines(first, stages, aim, want_relatively_closer, crossing).done;
 }
 
 /// Traces, and closer where so many faces cross that lines are too coarse for the shape. Then makes
@@ -356,16 +361,17 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
   std::optional<Session> coarser = on_coarser_mesh(session, stages, wanted, working_ratio);
   if (!coarser) estimate_field(session, stages);
   const LineAim aim = aim_of(session, stages, counted, wanted);
-  trace_to_count(coarser ? *coarser : session, stages, aim, feedback_rounds);
+  // What a user says of directions and of lines decimation knows nothing of.
+  const bool needs_lines =
+      lines_only || only_quads(stages) || session.has("density") || session.has("guides");
+  trace_to_count(coarser ? *coarser : session, stages, aim, feedback_rounds,
+                 !needs_lines && !coarser);
   if (coarser) {
     if (coarser->has("uncrossed")) coarser->keep(stages.uncross);
     take_from_coarser_mesh(session, std::move(*coarser), stages);
     CrossingPlaces crossing(session.get<TriMesh>("mesh"));
     replace_crossing(session, stages, aim, crossing);
   }
-  // What a user says of directions and of lines decimation knows nothing of.
-  const bool needs_lines =
-      lines_only || only_quads(stages) || session.has("density") || session.has("guides");
   if (!needs_lines && decimate_if_too_coarse(session, stages, counted, wanted)) {
     CrossingPlaces crossing(session.get<TriMesh>("mesh"));
     replace_crossing(session, stages, aim, crossing);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "common/core/error.h"
@@ -68,6 +69,11 @@ bool is_too_coarse(const ResultFaults& faults) {
          faults.missing > kFarOff;
 }
 
+/// Whether lines are so much farther off than another result that they miss the shape.
+bool is_shape_missed(const ResultFaults& other, const ResultFaults& lines) {
+  return lines.distance > kSeen && other.distance < kVeryMuchLess * lines.distance;
+}
+
 /// Whether one of the faults is much less, and none is more. Where lines are very much farther off
 /// they miss the shape, and where most of their faces cross they are none: other faults count less
 /// then.
@@ -83,11 +89,10 @@ bool is_much_better(const ResultFaults& other, const ResultFaults& faults) {
   const bool is_clean = faults.crossing > 0 && other.crossing == 0 &&
                         other.odd <= std::max(faults.odd + kMoreOdd, kFewOdd);
   const bool is_as_wanted = faults.missing > kFarOff && other.missing < kFarOff / 2;
-  const bool is_shape_missed =
-      faults.distance > kSeen && other.distance < kVeryMuchLess * faults.distance;
-  const bool is_sound = is_shape_missed ? other.crossing <= std::max(faults.crossing, kMostCross)
-                                        : other.crossing <= faults.crossing &&
-                                              other.missing <= std::max(faults.missing, kFarOff);
+  const bool is_sound =
+      is_shape_missed(other, faults)
+          ? other.crossing <= std::max(faults.crossing, kMostCross)
+          : other.crossing <= faults.crossing && other.missing <= std::max(faults.missing, kFarOff);
   const double farther = is_as_wanted && faults.missing > kMissed ? kMore : kHardlyMore;
   return (is_nearer || is_clean || is_found || crosses_less || is_as_wanted) &&
          other.distance <= farther * faults.distance && is_sound;
@@ -108,7 +113,29 @@ void decimate_to_count(Session& session, const GoalStages& stages, const Goal& g
   }
 }
 
+/// Decimated to the count, and fitted. \throw AlgorithmError where that cannot be done
+Session decimated(Session session, const GoalStages& stages, const Goal& goal) {
+  session.withdraw("uncrossed");
+  decimate_to_count(session, stages, goal);
+  session.provide_as("quads", session.get<QuadMesh>("decimated"), "decimated");
+  session.run(stages.fit);
+  return session;
+}
+
 }  // namespace
+
+bool lines_miss_shape(const Session& session, const GoalStages& stages, Counted counted,
+                      std::int64_t wanted) {
+  const ResultFaults faults = faults_of(session, counted, wanted);
+  if (faults.distance <= kSeen) return false;
+  try {
+    const Session other = decimated(session, stages, {counted, wanted});
+    const ResultFaults left = faults_of(other, counted, wanted);
+    return is_shape_missed(left, faults) && is_much_better(left, faults);
+  } catch (const AlgorithmError&) {
+    return false;  // said when it is to take the place of lines
+  }
+}
 
 bool decimate_if_too_coarse(Session& session, const GoalStages& stages, Counted counted,
                             std::int64_t wanted) {
@@ -119,24 +146,21 @@ bool decimate_if_too_coarse(Session& session, const GoalStages& stages, Counted 
   if (!is_too_coarse(faults)) return false;
   session.say(fmt::format("lines are coarse for this shape at {} {}; decimating to compare", wanted,
                           name_of(counted)));
-  Session other = session;
-  other.withdraw("uncrossed");
+  std::optional<Session> other;
   try {
-    decimate_to_count(other, stages, goal);
-    other.provide_as("quads", other.get<QuadMesh>("decimated"), "decimated");
-    other.run(stages.fit);
+    other = decimated(session, stages, goal);
   } catch (const AlgorithmError& error) {
     session.say(std::string("warning: kept the lines: ") + error.what());
     return false;
   }
-  const ResultFaults decimated = faults_of(other, counted, wanted);
-  if (!is_much_better(decimated, faults)) return false;
-  session = other;
+  const ResultFaults left = faults_of(*other, counted, wanted);
+  if (!is_much_better(left, faults)) return false;
+  session = *other;
   session.keep(stages.decimate);
   session.keep(stages.fit);
   const bool is_spent = is_input_spent(session);
   std::string triangles;
-  if (decimated.odd > kUsuallyOdd) {
+  if (left.odd > kUsuallyOdd) {
     triangles = is_spent ? ", and has more triangles" : ", and has more triangles: ask for more";
   }
   session.say(fmt::format(

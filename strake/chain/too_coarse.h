@@ -21,4 +21,10 @@ namespace strake {
 bool decimate_if_too_coarse(Session& session, const GoalStages& stages, Counted counted,
                             std::int64_t wanted);
 
+/// Whether a result made from lines misses the shape by so much, with cells of which one sees that,
+/// that closer lines in places are in vain: decimation to the same count is at less than a quarter
+/// of the distance.
+bool lines_miss_shape(const Session& session, const GoalStages& stages, Counted counted,
+                      std::int64_t wanted);
+
 }  // namespace strake

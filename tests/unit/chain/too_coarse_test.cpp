@@ -1,15 +1,32 @@
+#include "strake/chain/too_coarse.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "common/geometry/poly_topology/poly_topology.h"
 #include "common/geometry/samples/samples.h"
+#include "stages/coarsen/stage.h"
+#include "stages/decimate/stage.h"
+#include "stages/fit/stage.h"
+#include "stages/import/stage.h"
+#include "stages/lift/stage.h"
+#include "stages/mesh/stage.h"
+#include "stages/prolong/stage.h"
+#include "stages/refine/stage.h"
+#include "stages/refine/uncross/stage.h"
+#include "stages/size/stage.h"
+#include "stages/smooth/stage.h"
+#include "stages/tensor/stage.h"
+#include "stages/trace/stage.h"
 #include "strake/chain/remesh.h"
+#include "strake/chain/session.h"
 #include "tests/support/plates.h"
 #include "tests/unit/chain/results.h"
 
@@ -105,6 +122,67 @@ PolyMesh close_sheets(int along) {
     }
   }
   return mesh;
+}
+
+/// The square from -2 to 2, `along` quads wide, at a height.
+PolyMesh relief(int along, const std::function<double(double x, double y)>& height) {
+  PolyMesh mesh;
+  for (int j = 0; j <= along; ++j) {
+    for (int i = 0; i <= along; ++i) {
+      const double x = 4.0 * i / along - 2;
+      const double y = 4.0 * j / along - 2;
+      mesh.positions.emplace_back(x, y, height(x, y));
+    }
+  }
+  for (int j = 0; j < along; ++j) {
+    for (int i = 0; i < along; ++i) {
+      const Index a = j * (along + 1) + i;
+      mesh.add_face(std::vector<Index>{a, a + 1, a + along + 2, a + along + 1});
+    }
+  }
+  return mesh;
+}
+
+/// Whether closer lines are in vain where those of a flat grid are all there is of a surface.
+bool flat_grid_misses(const PolyMesh& surface, int along) {
+  Listener listener;
+  Session session(listener);
+  const Stage import = import_stage();
+  session.provide("input", Polygons{surface, "", {}}, "input", "");
+  session.run(import);
+  QuadMesh grid;
+  grid.mesh = relief(along, [](double, double) { return 0.0; });
+  grid.mesh_id = session.get<TriMesh>("mesh").id;
+  session.provide("fitted", grid, "test", "");
+  const GoalStages stages{.coarsen = coarsen_stage(),
+                          .tensor = tensor_stage(),
+                          .smooth = smooth_stage(),
+                          .trace = trace_stage(),
+                          .mesh = mesh_stage(),
+                          .lift = lift_stage(),
+                          .prolong = prolong_stage(),
+                          .fit = fit_stage(),
+                          .size = size_stage(),
+                          .refine = refine_stage(),
+                          .uncross = refine_uncross_stage(),
+                          .decimate = decimate_stage()};
+  return lines_miss_shape(session, stages, Counted::vertices, grid.mesh.vertex_count());
+}
+
+TEST(TooCoarse, CloserLinesAreInVainWhereDecimationFindsTheShape) {
+  const auto peak = [](double x, double y) { return 2 * std::exp(-(x * x + y * y) / 0.1); };
+  EXPECT_TRUE(flat_grid_misses(relief(80, peak), 11));
+}
+
+// What is as rough as its faces few vertices cannot show.
+TEST(TooCoarse, CloserLinesMayDoWhereDecimationIsFarOffToo) {
+  const auto rough = [](double x, double y) { return 0.1 * std::sin(31 * x) * std::sin(29 * y); };
+  EXPECT_FALSE(flat_grid_misses(relief(80, rough), 11));
+}
+
+TEST(TooCoarse, CloserLinesMayDoWhereCellsAreNearTheShape) {
+  const auto low = [](double x, double y) { return 0.02 * std::exp(-(x * x + y * y) / 0.1); };
+  EXPECT_FALSE(flat_grid_misses(relief(80, low), 11));
 }
 
 // Faces along lines cross from sheet to sheet, and decimation makes no vertices.
