@@ -4,16 +4,62 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "common/geometry/frames.h"
+#include "common/geometry/poly_topology/poly_edges.h"
 #include "common/geometry/surface_point.h"
 #include "stages/fit/result_components.h"
 
 namespace strake::fitting {
 namespace {
 
+/// A vertex nearer to the boundary than this share of the diagonal is on it.
+constexpr double kOnBoundary = 1e-9;
 /// A foot stays on a sheet whose normal is within 60 degrees of the last one.
 constexpr double kLeastAgreement = 0.5;
+
+/// [V of the input] lengths of the edges of a result that stand for the boundary there; 0
+/// elsewhere.
+std::vector<double> lengths_on_boundary(const TriMesh& mesh, const QuadMesh& quads) {
+  std::vector<std::pair<Index, double>> starts;  // half-edge that a boundary edge starts on, length
+  const PolyEdges edges = collect_edges(quads.mesh);
+  for (Index e = 0; e < edges.edge_count(); ++e) {
+    if (edges.sides_of(e).size() != 1) continue;
+    const auto& [a, b] = edges.vertices[e];
+    const double length = (quads.mesh.positions[b] - quads.mesh.positions[a]).norm();
+    if (!(length > 0)) continue;
+    for (const Index v : {a, b}) {
+      for (int i = 0; i < 3; ++i) {
+        const Index h = 3 * quads.provenance.face[v] + i;
+        const Index out = mesh.vertex_out[mesh.from(h)];
+        if (quads.provenance.barycentric[v][(i + 2) % 3] < kOnEdge && mesh.is_boundary(h)) {
+          starts.emplace_back(h, length);
+        } else if (quads.provenance.barycentric[v][i] > 1 - kOnEdge && mesh.is_boundary(out)) {
+          starts.emplace_back(out, length);
+        }
+      }
+    }
+  }
+  std::sort(starts.begin(), starts.end());  // of several on a half-edge the longest is left
+  std::vector<double> lengths(mesh.positions.size(), 0.0);
+  for (const auto& [h, length] : starts) lengths[mesh.from(h)] = length;
+  for (const auto& [start, length] : starts) {
+    for (Index h = mesh.vertex_out[mesh.to(start)]; lengths[mesh.from(h)] == 0;
+         h = mesh.vertex_out[mesh.to(h)]) {
+      lengths[mesh.from(h)] = lengths[mesh.from(start)];
+    }
+  }
+  return lengths;
+}
+
+/// The course of ragged boundaries for vertices as far apart as those of a result.
+BorderCourse course_for(const TriMesh& mesh, const QuadMesh& quads) {
+  if (ragged_directions(mesh).empty()) return {};
+  return border_course(mesh, lengths_on_boundary(mesh, quads),
+                       std::numeric_limits<double>::infinity());
+}
 
 }  // namespace
 
@@ -21,6 +67,7 @@ VertexPlaces::VertexPlaces(const TriMesh& mesh, const SurfaceDistance& surface,
                            const QuadMesh& quads, const PrincipalField* field)
     : mesh_(mesh),
       surface_(surface),
+      borders_(course_for(mesh, quads)),
       face_normals_(mesh),
       own_normals_(field == nullptr ? strake::wedge_normals(mesh, face_normals_)
                                     : std::vector<Vec3>()),
@@ -38,6 +85,7 @@ VertexPlaces::VertexPlaces(const TriMesh& mesh, const SurfaceDistance& surface,
       lines_[v].kind = Kind::fixed;
     } else {
       place_on_line(v);
+      lines_[v].is_on_course = lines_[v].kind == Kind::line && is_off_boundary(v);
     }
     normals_[v] = normal_at_foot(v);
   });
@@ -50,7 +98,7 @@ void VertexPlaces::place_on_line(Index v) {
     if (at[i] < 1 - kOnEdge) continue;
     const Index vertex = mesh_.from(3 * foot_face_[v] + i);
     const std::vector<Index> barriers = barriers_around(vertex);
-    if (mesh_.is_corner[vertex] != 0) {
+    if (is_corner(vertex)) {
       place.kind = Kind::fixed;
     } else if (barriers.empty()) {
       return;
@@ -85,20 +133,34 @@ std::vector<Index> VertexPlaces::barriers_around(Index vertex) const {
 
 /// The barrier by which a line goes on beyond a vertex; kNone where it ends there.
 Index VertexPlaces::other_barrier(Index vertex, Index halfedge) const {
-  if (mesh_.is_corner[vertex] != 0) return kNone;
+  if (is_corner(vertex)) return kNone;
   const std::vector<Index> barriers = barriers_around(vertex);
   if (barriers.size() != 2) return kNone;
   return mesh_.edge_of(barriers[0]) == mesh_.edge_of(halfedge) ? barriers[1] : barriers[0];
 }
 
+bool VertexPlaces::is_off_boundary(Index v) const {
+  if (!borders_.is_off(mesh_, lines_[v].halfedge)) return false;
+  const Vec3 foot = place_of(mesh_, {foot_face_[v], foot_[v]});
+  return (positions_[v] - foot).norm() > kOnBoundary * mesh_.diagonal;
+}
+
+Vec3 VertexPlaces::line_end(const LinePlace& place, Index vertex) const {
+  return place.is_on_course ? borders_.place(mesh_, vertex) : mesh_.positions[vertex];
+}
+
 Vec3 VertexPlaces::tangent(const LinePlace& place) const {
+  if (place.is_on_course && borders_.is_off(mesh_, place.halfedge)) {
+    const Vec3& direction = borders_.direction[mesh_.from(place.halfedge)];
+    if (!direction.isZero(0)) return direction;
+  }
   return (mesh_.positions[mesh_.to(place.halfedge)] - mesh_.positions[mesh_.from(place.halfedge)])
       .normalized();
 }
 
 Vec3 VertexPlaces::at(const LinePlace& place) const {
-  const Vec3& a = mesh_.positions[mesh_.from(place.halfedge)];
-  return a + place.along * (mesh_.positions[mesh_.to(place.halfedge)] - a);
+  const Vec3 a = line_end(place, mesh_.from(place.halfedge));
+  return a + place.along * (line_end(place, mesh_.to(place.halfedge)) - a);
 }
 
 VertexPlaces::LinePlace VertexPlaces::slide(LinePlace place, double distance) const {
@@ -107,7 +169,7 @@ VertexPlaces::LinePlace VertexPlaces::slide(LinePlace place, double distance) co
   double left = std::abs(distance);
   while (true) {
     const double length =
-        (mesh_.positions[mesh_.to(place.halfedge)] - mesh_.positions[mesh_.from(place.halfedge)])
+        (line_end(place, mesh_.to(place.halfedge)) - line_end(place, mesh_.from(place.halfedge)))
             .norm();
     const double ahead = length * (forward ? 1 - place.along : place.along);
     if (left <= ahead) {

@@ -7,6 +7,7 @@
 #include "common/core/fields.h"
 #include "common/core/poly_mesh.h"
 #include "common/core/tri_mesh.h"
+#include "common/geometry/border_course.h"
 #include "common/geometry/mesh_measures.h"
 #include "common/geometry/surface_distance/surface_distance.h"
 
@@ -15,8 +16,9 @@ namespace strake::fitting {
 /// Where the vertices of a result may go, and where they belong on the surface.
 ///
 /// A vertex on a feature or boundary line stays on it: it slides along the line's edges, up to the
-/// corner where the line ends, or once around. Corners do not move at all, nor does a component
-/// that is the input's triangles. All others move freely, and their foot on the surface follows.
+/// corner where the line ends, or once around. One that comes off a ragged boundary slides along
+/// the course of that. Corners do not move at all, nor does a component that is the input's
+/// triangles. All others move freely, and their foot on the surface follows.
 class VertexPlaces {
  public:
   /// \param mesh, surface  the input and its faces, in the same order
@@ -65,13 +67,22 @@ class VertexPlaces {
   /// A place on the line of barrier edges that a vertex slides along.
   struct LinePlace {
     Kind kind = Kind::free;
-    Index halfedge = kNone;  ///< a barrier
-    double along = 0;        ///< in [0, 1] from its origin
+    Index halfedge = kNone;     ///< a barrier
+    double along = 0;           ///< in [0, 1] from its origin
+    bool is_on_course = false;  ///< of a ragged boundary, instead of on its edges
   };
 
   void place_on_line(Index v);
+  /// Whether lines end at a vertex of the input.
+  [[nodiscard]] bool is_corner(Index vertex) const {
+    return (borders_.is_corner.empty() ? mesh_.is_corner : borders_.is_corner)[vertex] != 0;
+  }
+  /// Whether a vertex on a line is where the course of a ragged boundary is, and not that.
+  [[nodiscard]] bool is_off_boundary(Index v) const;
   [[nodiscard]] std::vector<Index> barriers_around(Index vertex) const;
   [[nodiscard]] Index other_barrier(Index vertex, Index halfedge) const;
+  /// An end of the half-edge that a vertex slides along.
+  [[nodiscard]] Vec3 line_end(const LinePlace& place, Index vertex) const;
   [[nodiscard]] Vec3 tangent(const LinePlace& place) const;
   [[nodiscard]] LinePlace slide(LinePlace place, double distance) const;
   [[nodiscard]] Vec3 at(const LinePlace& place) const;
@@ -79,6 +90,7 @@ class VertexPlaces {
 
   const TriMesh& mesh_;
   const SurfaceDistance& surface_;
+  BorderCourse borders_;
   FaceNormals face_normals_;                 ///< of the input
   std::vector<Vec3> own_normals_;            ///< [W] empty where the field has them
   const std::vector<Vec3>& wedge_normals_;   ///< of the input

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/core/error.h"
+#include "common/geometry/border_course.h"
 #include "common/geometry/carry_attributes.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_topology.h"
@@ -237,20 +238,21 @@ Index most_sides(const MeshOptions& options) {
 /// The cells as the lines cut them out. \param cuts  set to the number of pieces that cut besides
 PolygonGraph cut_out_cells(const TriMesh& mesh, const LineSet& lines,
                            const std::vector<Index>& component,
-                           const std::vector<Triangles>& triangles, Index& cuts,
-                           Observer& observer) {
+                           const std::vector<Triangles>& triangles, const BorderCourse& borders,
+                           Index& cuts, Observer& observer) {
   Overlay overlay = build_overlay(mesh, lines, observer);
   keep_triangles(component, triangles, overlay);
   observer.report("forming cells", 0.4);
   cuts = reduce_to_lines(overlay);
-  return {mesh, overlay};
+  return {mesh, overlay, borders};
 }
 
 Cells form_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions& options,
                  const std::vector<Index>& component, const std::vector<Triangles>& triangles,
-                 Observer& observer) {
+                 const BorderCourse& borders, Observer& observer) {
   Index cuts = 0;
-  Cells cells{cut_out_cells(mesh, lines, component, triangles, cuts, observer), {}, {}, {}, {}};
+  Cells cells{
+      cut_out_cells(mesh, lines, component, triangles, borders, cuts, observer), {}, {}, {}, {}};
   cells.cut_pieces = cuts;
   observer.report("simplifying cells", 0.6);
   cells.simplified =
@@ -283,10 +285,14 @@ MeshResult mesh_lines(const TriMesh& mesh, const LineSet& lines, const MeshOptio
   const std::vector<Index> component = face_components(mesh);
   std::vector<Triangles> triangles(*std::max_element(component.begin(), component.end()) + 1,
                                    Triangles::merged);
-  Cells cells = form_cells(mesh, lines, options, component, triangles, observer);
+  const BorderCourse borders =
+      border_course(mesh, sizes_at_vertices(mesh, lines.spacing_along_min, lines.spacing_along_max),
+                    options.border_distance ? options.border_distance->resolve(mesh.diagonal)
+                                            : std::numeric_limits<double>::infinity());
+  Cells cells = form_cells(mesh, lines, options, component, triangles, borders, observer);
   const Triangles last = options.pure_quads ? Triangles::kept : Triangles::held;
   while (find_starved(mesh, component, cells.graph, last, triangles)) {
-    cells = form_cells(mesh, lines, options, component, triangles, observer);
+    cells = form_cells(mesh, lines, options, component, triangles, borders, observer);
   }
   MeshResult result;
   result.quads = assemble(mesh, cells.graph);

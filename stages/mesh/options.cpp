@@ -36,6 +36,14 @@ OptionList MeshOptions::declare() {
        .target = &pure_quads,
        .unit = "",
        .help = "Make every face a quad, at the price of more vertices of valence 3 and 5."},
+      {.name = "border-distance",
+       .target = &border_distance,
+       .unit = "length",
+       .help = "Saws that boundaries cut along triangles have are left out up to this height over "
+               "the middle; without it where they are finer than cells. strake remesh takes half "
+               "the tolerance.",
+       .min = 1e-7,
+       .max = 1},
       {.name = "strip-vertices",
        .target = &strip_vertices,
        .unit = "",

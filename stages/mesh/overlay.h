@@ -20,6 +20,7 @@ enum class EdgeKind : std::uint8_t {
 /// A node of the overlay: where it lies on the triangle mesh.
 struct SurfaceNode {
   Vec3 position;
+  Vec3 offset = Vec3::Zero();  ///< of the position from the surface: on ragged boundaries
   Index face = kNone;
   std::array<double, 3> barycentric{};
   Index vertex = kNone;  ///< the mesh vertex it is, or kNone

@@ -14,7 +14,7 @@ namespace strake {
 namespace {
 
 /// Which overlay nodes become nodes of the polygon graph.
-std::vector<char> kept_nodes(const TriMesh& mesh, const Overlay& overlay) {
+std::vector<char> kept_nodes(const Overlay& overlay, const BorderCourse& borders) {
   const DartGraph& graph = overlay.graph;
   std::vector<Index> degree(overlay.nodes.size(), 0);
   std::vector<Index> some_dart(overlay.nodes.size(), kNone);
@@ -34,7 +34,7 @@ std::vector<char> kept_nodes(const TriMesh& mesh, const Overlay& overlay) {
     const Index v = overlay.nodes[n].vertex;
     const EdgeKind kind = overlay.kind[DartGraph::edge_of(some_dart[n])];
     const bool on_barrier = kind == EdgeKind::feature || kind == EdgeKind::boundary;
-    if (degree[n] != 2 || (on_barrier && v != kNone && mesh.is_corner[v] != 0)) kept[n] = 1;
+    if (degree[n] != 2 || (on_barrier && v != kNone && borders.is_corner[v] != 0)) kept[n] = 1;
   }
   // Rings without any such node keep an arbitrary one.
   std::vector<char> seen(overlay.nodes.size(), 0);
@@ -53,6 +53,14 @@ std::vector<char> kept_nodes(const TriMesh& mesh, const Overlay& overlay) {
     seen[n] = 1;
   }
   return kept;
+}
+
+/// A node of the overlay, on the course of the boundary where it is on that.
+SurfaceNode placed(const TriMesh& mesh, const BorderCourse& borders, SurfaceNode node) {
+  if (borders.offset.empty()) return node;
+  node.offset = borders.offset_at(mesh, {node.face, node.barycentric});
+  node.position += node.offset;
+  return node;
 }
 
 /// From one node to another.
@@ -105,15 +113,16 @@ bool fit_together(const DartGraph& graph, const std::vector<std::vector<Index>>&
 
 }  // namespace
 
-PolygonGraph::PolygonGraph(const TriMesh& mesh, const Overlay& overlay) : mesh_(&mesh) {
+PolygonGraph::PolygonGraph(const TriMesh& mesh, const Overlay& overlay, const BorderCourse& borders)
+    : mesh_(&mesh) {
   const DartGraph& from = overlay.graph;
-  const std::vector<char> kept = kept_nodes(mesh, overlay);
+  const std::vector<char> kept = kept_nodes(overlay, borders);
   std::vector<Index> node_of(overlay.nodes.size(), kNone);
   std::vector<Index> dart_of(from.dart_count(), kNone);  // first overlay dart -> own dart
   std::vector<Index> last_of;                            // own dart -> last overlay dart
   for (Index d = 0; d < from.dart_count(); ++d) {
     if (from.is_alive(d) && kept[from.from(d)] != 0 && dart_of[d] == kNone) {
-      add_chain(overlay, d, dart_of, kept, node_of);
+      add_chain(overlay, borders, d, dart_of, kept, node_of);
     }
   }
   for (Index d = 0; d < from.dart_count(); ++d) {
@@ -127,24 +136,25 @@ PolygonGraph::PolygonGraph(const TriMesh& mesh, const Overlay& overlay) : mesh_(
     const Index n = graph_.from(d);
     if (!is_barrier(d)) continue;
     const Index v = nodes_[n].vertex;
-    rank_[n] = v != kNone && mesh.is_corner[v] != 0 ? NodeRank::corner : NodeRank::barrier;
+    rank_[n] = v != kNone && borders.is_corner[v] != 0 ? NodeRank::corner : NodeRank::barrier;
   }
 }
 
-void PolygonGraph::add_chain(const Overlay& overlay, Index first, std::vector<Index>& dart_of,
-                             const std::vector<char>& kept, std::vector<Index>& node_of) {
+void PolygonGraph::add_chain(const Overlay& overlay, const BorderCourse& borders, Index first,
+                             std::vector<Index>& dart_of, const std::vector<char>& kept,
+                             std::vector<Index>& node_of) {
   const DartGraph& from = overlay.graph;
   const auto own_node = [&](Index n) {
     if (node_of[n] == kNone) {
       node_of[n] = static_cast<Index>(nodes_.size());
-      nodes_.push_back(overlay.nodes[n]);
+      nodes_.push_back(placed(*mesh_, borders, overlay.nodes[n]));
     }
     return node_of[n];
   };
   std::vector<SurfaceNode> inner;
   Index last = first;
   while (kept[from.to(last)] == 0) {
-    inner.push_back(overlay.nodes[from.to(last)]);
+    inner.push_back(placed(*mesh_, borders, overlay.nodes[from.to(last)]));
     last = from.next(last);
   }
   const Index own_from = own_node(from.from(first));
@@ -347,6 +357,8 @@ void PolygonGraph::contract(Index dart) {
 SurfaceNode PolygonGraph::between(const SurfaceNode& a, const SurfaceNode& b, double share) const {
   SurfaceNode node;
   node.position = a.position + share * (b.position - a.position);
+  node.offset = a.offset + share * (b.offset - a.offset);
+  const Vec3 on_surface = node.position - node.offset;
   // Neighbouring points of a course share a face: one of theirs, or a neighbour of it.
   double best = std::numeric_limits<double>::infinity();
   const auto consider = [&](Index f) {
@@ -355,12 +367,12 @@ SurfaceNode PolygonGraph::between(const SurfaceNode& a, const SurfaceNode& b, do
     const Vec3 x = (mesh_->positions[mesh_->faces[f][1]] - origin).normalized();
     const Vec3 side = mesh_->positions[mesh_->faces[f][2]] - origin;
     const Vec3 y = (side - x * x.dot(side)).normalized();
-    const Vec3 offset = node.position - origin;
+    const Vec3 offset = on_surface - origin;
     Vec3 bary = chart.barycentric(Vec2(x.dot(offset), y.dot(offset))).cwiseMax(0.0);
     bary /= bary.sum();
     Vec3 foot = Vec3::Zero();
     for (int i = 0; i < 3; ++i) foot += bary[i] * mesh_->positions[mesh_->faces[f][i]];
-    const double distance = (foot - node.position).squaredNorm();
+    const double distance = (foot - on_surface).squaredNorm();
     if (!(distance < best)) return;
     best = distance;
     node.face = f;

@@ -4,6 +4,7 @@
 #include <boost/container/small_vector.hpp>
 #include <vector>
 
+#include "common/geometry/border_course.h"
 #include "stages/mesh/overlay.h"
 
 namespace strake {
@@ -18,8 +19,12 @@ using DartLoop = boost::container::small_vector<Index, 12>;
 class PolygonGraph {
  public:
   /// Contracts an overlay that `reduce_to_lines` has prepared: nodes of degree two become part of
-  /// their edges, except corners and where the kind of line changes.
-  PolygonGraph(const TriMesh& mesh, const Overlay& overlay);
+  /// their edges, except corners and where the kind of line changes. Those of ragged boundaries lie
+  /// on their course.
+  PolygonGraph(const TriMesh& mesh, const Overlay& overlay, const BorderCourse& borders);
+  /// Likewise, with boundaries as they are.
+  PolygonGraph(const TriMesh& mesh, const Overlay& overlay)
+      : PolygonGraph(mesh, overlay, BorderCourse{{}, {}, mesh.is_corner}) {}
 
   [[nodiscard]] const DartGraph& graph() const { return graph_; }
   [[nodiscard]] const SurfaceNode& node(Index n) const { return nodes_[n]; }
@@ -110,8 +115,9 @@ class PolygonGraph {
   void describe_plain_edge();
   [[nodiscard]] Cut cut(Index dart, double share) const;
   [[nodiscard]] const SurfaceNode& point(Index even, std::size_t i) const;
-  void add_chain(const Overlay& overlay, Index first, std::vector<Index>& dart_of,
-                 const std::vector<char>& kept, std::vector<Index>& node_of);
+  void add_chain(const Overlay& overlay, const BorderCourse& borders, Index first,
+                 std::vector<Index>& dart_of, const std::vector<char>& kept,
+                 std::vector<Index>& node_of);
   void extend_course(Index first, Index dart);
   [[nodiscard]] SurfaceNode between(const SurfaceNode& a, const SurfaceNode& b, double share) const;
 

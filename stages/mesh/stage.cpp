@@ -9,7 +9,7 @@ namespace strake {
 Stage mesh_stage() {
   Stage stage;
   stage.name = "mesh";
-  stage.version = 14;
+  stage.version = 15;
   stage.summary = "Builds the quad-dominant mesh whose edges run along the lines.";
   stage.inputs = {{"mesh", PortKind::mesh, "mesh artifact"},
                   {"lines", PortKind::lines, "lines artifact of that mesh"}};

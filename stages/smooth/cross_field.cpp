@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <complex>
 
+#include "common/geometry/border_course.h"
 #include "common/geometry/frames.h"
 #include "common/geometry/mesh_measures.h"
 #include "stages/smooth/conjugate_gradients.h"
@@ -62,6 +63,7 @@ CrossSystem cross_system(const TriMesh& mesh, const WedgeGraph& graph, double st
   const auto n = static_cast<std::size_t>(graph.size());
   std::vector<TangentFrame> frames(n);
   const std::vector<Index> halfedges = graph_halfedges(mesh, graph);
+  const std::vector<Vec3> ragged = ragged_directions(mesh);
   CrossSystem system = {
       {graph.offsets, graph.neighbours, std::vector<std::complex<float>>(graph.neighbours.size()),
        std::vector<double>(n)},
@@ -94,7 +96,10 @@ CrossSystem cross_system(const TriMesh& mesh, const WedgeGraph& graph, double st
       if (mesh.is_barrier(h)) {
         const double hold = mesh.is_boundary(h) ? kBoundaryWeight : kFeatureWeight;
         diagonal += hold;
-        system.right[w] += hold * here;
+        const bool is_saw =
+            mesh.is_boundary(h) && !ragged.empty() && !ragged[mesh.from(h)].isZero(0);
+        const Vec3& along = is_saw ? ragged[mesh.from(h)] : edge;
+        system.right[w] += hold * cross_power(frames[w].tangent_from_world(along));
       } else {
         weight += dirichlet_weight(mesh, mesh.twin[h]);
       }

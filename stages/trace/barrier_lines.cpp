@@ -20,10 +20,12 @@ constexpr double kSmallestRing = 0.25;
 /// Lines that cross a ring: three, with some room for the distance at which lines stop.
 constexpr double kFewestOnRing = 3.5;
 
+using Flags = std::vector<std::uint8_t>;
+
 /// The barrier half-edge that continues a line after `h`, or kNone at a corner or end.
-Index next_along(const TriMesh& mesh, Index h, bool boundary) {
+Index next_along(const TriMesh& mesh, const Flags& is_corner, Index h, bool boundary) {
   const Index v = mesh.to(h);
-  if (mesh.is_corner[v] != 0) return kNone;
+  if (is_corner[v] != 0) return kNone;
   Index found = kNone;
   for (Index out = mesh.vertex_out[v];;) {
     if (boundary) {
@@ -42,6 +44,26 @@ Vec3 edge_vector(const TriMesh& mesh, Index h) {
   return mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)];
 }
 
+/// Corners of feature and boundary lines, but for teeth of ragged boundaries.
+const Flags& corners(const TraceDomain& domain) {
+  return domain.borders.is_corner.empty() ? domain.mesh.is_corner : domain.borders.is_corner;
+}
+
+/// Along barrier half-edge h, or the course of a ragged boundary there; a unit vector then.
+Vec3 direction_along(const TraceDomain& domain, Index h) {
+  const BorderCourse& borders = domain.borders;
+  if (!borders.is_off(domain.mesh, h)) return edge_vector(domain.mesh, h);
+  const Vec3& direction = borders.direction[domain.mesh.from(h)];
+  return direction.isZero(0) ? borders.direction[domain.mesh.to(h)] : direction;
+}
+
+/// How far barrier half-edge h leads along its line, or along the course of a ragged boundary.
+double way_along(const TraceDomain& domain, Index h) {
+  const Vec3 edge = edge_vector(domain.mesh, h);
+  if (!domain.borders.is_off(domain.mesh, h)) return edge.norm();
+  return std::max(0.0, edge.dot(direction_along(domain, h)));
+}
+
 /// Distance wanted between crossing lines along barrier half-edge h, the smaller of its two sides.
 double spacing_along_edge(const TraceDomain& domain, Index h) {
   double least = std::numeric_limits<double>::infinity();
@@ -52,18 +74,21 @@ double spacing_along_edge(const TraceDomain& domain, Index h) {
     const Vec2 edge = context.chart.corner[(i + 1) % 3] - context.chart.corner[i];
     const Vec2 middle = context.chart.corner[i] + 0.5 * edge;
     const double length = edge.norm();
-    const Vec2 heading = length > 0 ? Vec2(edge / length) : Vec2(1, 0);
+    Vec2 heading = length > 0 ? Vec2(edge / length) : Vec2(1, 0);
+    if (domain.borders.is_off(domain.mesh, h)) {
+      heading = chart_direction(domain, context, direction_along(domain, h)).normalized();
+    }
     least = std::min(least, spacing_at(domain, context, middle, heading).along);
   }
   return least;
 }
 
-std::vector<BarrierLine> all_lines(const TriMesh& mesh) {
+std::vector<BarrierLine> all_lines(const TriMesh& mesh, const Flags& is_corner) {
   std::vector<BarrierLine> lines;
   std::vector<char> used(mesh.halfedge_count(), 0);
   const auto starts_line = [&](Index h) {
     const Index v = mesh.from(h);
-    if (mesh.is_corner[v] != 0) return true;
+    if (is_corner[v] != 0) return true;
     Index degree = 0;  // a vertex that is no corner has two barrier edges of one kind
     for (Index out = mesh.vertex_out[v];;) {
       degree += mesh.is_feature[out];
@@ -80,7 +105,7 @@ std::vector<BarrierLine> all_lines(const TriMesh& mesh) {
       used[h] = 1;
       if (mesh.twin[h] != kNone) used[mesh.twin[h]] = 1;
       line.halfedges.push_back(h);
-      h = next_along(mesh, h, line.boundary);
+      h = next_along(mesh, is_corner, h, line.boundary);
     }
     line.closed = h == start;
     lines.push_back(std::move(line));
@@ -152,7 +177,7 @@ std::vector<char> too_small(const TriMesh& mesh, const std::vector<BarrierLine>&
 }  // namespace
 
 void bound_rings(const TriMesh& mesh, SpacingModel& model) {
-  for (const BarrierLine& line : all_lines(mesh)) {
+  for (const BarrierLine& line : all_lines(mesh, mesh.is_corner)) {
     if (!line.closed) continue;
     double length = 0;
     for (const Index h : line.halfedges) length += edge_vector(mesh, h).norm();
@@ -161,7 +186,7 @@ void bound_rings(const TriMesh& mesh, SpacingModel& model) {
 }
 
 std::vector<BarrierLine> barrier_lines(const TraceDomain& domain) {
-  std::vector<BarrierLine> lines = all_lines(domain.mesh);
+  std::vector<BarrierLine> lines = all_lines(domain.mesh, corners(domain));
   for (BarrierLine& line : lines) {
     for (const Index h : line.halfedges) {
       line.measure += edge_vector(domain.mesh, h).norm() / spacing_along_edge(domain, h);
@@ -201,11 +226,10 @@ TracedLine to_traced_line(const BarrierLine& line) {
 }
 
 void seed_along(const TraceDomain& domain, const BarrierLine& line, std::vector<Seed>& seeds) {
-  const TriMesh& mesh = domain.mesh;
   std::vector<double> measure(line.halfedges.size() + 1, 0);  // length in units of the spacing
   for (std::size_t i = 0; i < line.halfedges.size(); ++i) {
     const Index h = line.halfedges[i];
-    measure[i + 1] = measure[i] + edge_vector(mesh, h).norm() / spacing_along_edge(domain, h);
+    measure[i + 1] = measure[i] + way_along(domain, h) / spacing_along_edge(domain, h);
   }
   const double total = measure.back();
   const auto parts = static_cast<Index>(std::max(line.closed ? 3.0 : 1.0, std::round(total)));
@@ -219,7 +243,7 @@ void seed_along(const TraceDomain& domain, const BarrierLine& line, std::vector<
     Seed seed;
     seed.face = TriMesh::face_of(h);
     seed.anchor = {h, std::clamp(lambda, 0.02, 0.98)};
-    seed.direction = domain.face_normals[seed.face].cross(edge_vector(mesh, h)).normalized();
+    seed.direction = domain.face_normals[seed.face].cross(direction_along(domain, h)).normalized();
     seeds.push_back(seed);
   }
 }
@@ -230,7 +254,7 @@ void seed_at_corners(const TraceDomain& domain, const std::vector<std::uint8_t>&
   std::vector<char> done(mesh.wedge_count(), 0);
   for (Index start = 0; start < mesh.halfedge_count(); ++start) {
     const Index w = mesh.wedge_of(start);
-    if (done[w] != 0 || mesh.is_corner[mesh.from(start)] == 0) continue;
+    if (done[w] != 0 || corners(domain)[mesh.from(start)] == 0) continue;
     done[w] = 1;
     Index first = start;  // clockwise-most corner of the wedge
     while (!mesh.is_barrier(first)) {

@@ -6,6 +6,7 @@
 
 #include "common/core/fields.h"
 #include "common/core/line_set.h"
+#include "common/geometry/border_course.h"
 #include "common/geometry/face_chart.h"
 #include "common/geometry/mesh_measures.h"
 #include "stages/trace/spacing.h"
@@ -18,6 +19,7 @@ struct TraceDomain {
   const PrincipalField& field;
   const Spacing& spacing;
   FaceNormals face_normals;
+  BorderCourse borders = {};  ///< empty: boundaries are as they are
 
   /// Chart direction -> world, for a chart in the position of `lay_out`.
   [[nodiscard]] ChartAxes axes(Index face) const {

@@ -25,6 +25,7 @@ constexpr Length kDefaultTolerance = percent(0.1);
 constexpr double kShareOfFamily = 0.5;
 constexpr Length kDefaultMaxSpacing = percent(5);  ///< [MK04] section 3.2, at the default tolerance
 constexpr double kStopFractionOfDensity = 0.6;
+constexpr double kToothOfTolerance = 0.5;  ///< the rest is for cells
 constexpr double kLargestCell = 3;         ///< in mean cell lengths, where a count is wanted
 constexpr double kSmallestSpacing = 1e-4;  ///< share of the diagonal
 constexpr Index kSeedsPerComponent = 8;
@@ -136,6 +137,12 @@ class WantedSpacing {
   double tolerance_of_family_ = 0;
 };
 
+/// Height of teeth of ragged boundaries over the middle that lines need not follow, model units.
+double largest_teeth(const TriMesh& mesh, const TraceOptions& options) {
+  if (!options.tolerance) return std::numeric_limits<double>::infinity();
+  return kToothOfTolerance * options.tolerance->resolve(mesh.diagonal);
+}
+
 /// Seeds on guide lines, from the middle of each: lines along them come first. All places are
 /// tried, for guides that are bent more than lines can be, and so need several.
 void seed_on_guides(const LaidGuides& guides, std::vector<Seed>& seeds) {
@@ -171,7 +178,10 @@ TraceResult trace_at(const TriMesh& mesh, const PrincipalField& field, const Wan
                      Observer& observer) {
   observer.report("choosing line distances", 0);
   Spacing spacing = wanted.at(scale);
-  const TraceDomain domain{mesh, field, spacing, FaceNormals(mesh)};
+  const TraceDomain domain{
+      mesh, field, spacing, FaceNormals(mesh),
+      border_course(mesh, sizes_at_vertices(mesh, spacing.along, spacing.across),
+                    largest_teeth(mesh, options))};
   TracerSettings settings;
   settings.stop_fraction = options.stop_fraction.value_or(
       sizes.density != nullptr ? kStopFractionOfDensity : settings.stop_fraction);

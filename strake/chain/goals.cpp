@@ -43,6 +43,8 @@ constexpr double kCloserThere = 0.5;
 /// Times that all lines are, where that is not enough, and at which share.
 constexpr int kCloserLines = 2;
 constexpr double kCloser = 0.6;
+/// Share of a tolerance that ragged boundaries may be off what lines take them for.
+constexpr double kShareOfBorders = 0.5;
 /// Share of the faces that cross, from which on all lines are traced closer where nobody wants a
 /// count; and times they are at most. Within a tolerance: share from which on they are before cells
 /// are divided, to which they are then, and share of the result from which on it is made anew.
@@ -394,6 +396,11 @@ std::string follow_spacing(Session& session, const GoalStages& stages,
 std::string meet_tolerance(Session& session, const GoalStages& stages, const std::string& tolerance,
                            std::optional<std::int64_t> feedback_rounds) {
   stages.refine.option("refine-tolerance").parse_into(tolerance);
+  if (const Option& border = stages.mesh.option("border-distance"); border.value().empty()) {
+    Length most = Length::parse(tolerance);
+    most.value *= kShareOfBorders;
+    border.parse_into(most.to_string());
+  }
   estimate_field(session, stages);
   for (std::int64_t i = 0; i < feedback_rounds.value_or(kFeedbackRounds); ++i) {
     shrink_to_tolerance(session, stages, tolerance);

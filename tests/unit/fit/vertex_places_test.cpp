@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "common/geometry/surface_distance/surface_distance.h"
 #include "tests/support/mesh_support.h"
@@ -69,6 +71,57 @@ TEST(VertexPlaces, HaveTheNormalsOfTheField) {
   EXPECT_LT((places.normal(0) - Vec3(0.6, 0.4, 0).normalized()).norm(), 1e-15);
   EXPECT_LT((fitting::VertexPlaces(c.mesh, surface, c.quads).normal(0) - Vec3(0, 0, 1)).norm(),
             1e-15);
+}
+
+/// Vertices in the middle of the teeth of a saw slide along it there; one on a flank stays on that.
+TEST(VertexPlaces, FollowTheCourseOfASaw) {
+  constexpr Index kTeeth = 60;
+  constexpr double kHeight = 0.04;
+  constexpr Index kCells = 12;
+  PolyMesh ring;
+  for (const double radius : {1.0, 2.0}) {
+    for (Index i = 0; i < 2 * kTeeth; ++i) {
+      const double angle = M_PI * i / kTeeth;
+      const double tooth = radius < 2 ? 0 : (i % 2 == 0 ? kHeight : -kHeight);
+      ring.positions.emplace_back((radius + tooth) * std::cos(angle),
+                                  (radius + tooth) * std::sin(angle), 0);
+    }
+  }
+  for (Index i = 0; i < 2 * kTeeth; ++i) {
+    const Index next = (i + 1) % (2 * kTeeth);
+    ring.add_face(std::array<Index, 3>{i, 2 * kTeeth + i, 2 * kTeeth + next});
+    ring.add_face(std::array<Index, 3>{i, 2 * kTeeth + next, next});
+  }
+  const TriMesh mesh = support::plain_tri_mesh(ring);
+  QuadMesh quads;
+  for (const double radius : {1.0, 2.0}) {
+    for (Index c = 0; c < kCells; ++c) {
+      const Index i = c * 2 * kTeeth / kCells;  // a tip, or beside the first face's inner corner
+      const double angle = M_PI * i / kTeeth;
+      quads.mesh.positions.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0);
+      quads.provenance.face.push_back(2 * i);
+      quads.provenance.barycentric.push_back(radius < 2 ? std::array<double, 3>{1, 0, 0}
+                                                        : std::array<double, 3>{0, 1, 0});
+    }
+  }
+  for (Index c = 0; c < kCells; ++c) {
+    const Index next = (c + 1) % kCells;
+    quads.mesh.add_face(std::array<Index, 4>{c, kCells + c, kCells + next, next});
+  }
+  quads.mesh.positions[kCells] = ring.positions[2 * kTeeth];  // on its tip
+  const SurfaceDistance surface(mesh.positions, mesh.faces);
+  fitting::VertexPlaces places(mesh, surface, quads);
+  const std::vector<fitting::VertexPlaces::State> start = places.states();
+  for (double way = -0.5; way < 0.5; way += 0.013) {
+    for (Index v = kCells + 1; v < 2 * kCells; ++v) {
+      places.restore(v, start[v]);
+      places.move(v, way * Vec3(0, 0, 1).cross(quads.mesh.positions[v]).normalized());
+      // The mean of an arc is a little further in.
+      EXPECT_NEAR(places.positions()[v].norm(), 2, kHeight / 2);
+    }
+  }
+  places.move(kCells, Vec3::Zero());
+  EXPECT_EQ(places.positions()[kCells], ring.positions[2 * kTeeth]);
 }
 
 }  // namespace
