@@ -37,7 +37,7 @@ TEST_F(Chain, FrontEndKeepsAToleranceAsThePrograms) {
   // Lines are closer where errors are too large.
   must("strake-size mesh.hdf field.hdf lines.hdf quads.hdf -o size.hdf -q --size-tolerance 0.045%");
   must("strake-trace mesh.hdf field.hdf -o lines.hdf -q --size size.hdf --tolerance 0.1%");
-  must("strake-mesh mesh.hdf lines.hdf -o quads.hdf -q");
+  must("strake-mesh mesh.hdf lines.hdf -o quads.hdf -q --border-distance 0.05%");
   must("strake-fit mesh.hdf quads.hdf --field field.hdf -o fitted.hdf -q");
   // Cells are divided and vertices fitted in turn, at last without: that could undo the tolerance.
   const std::string tolerance = " --refine-tolerance 0.1%";
