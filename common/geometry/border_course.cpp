@@ -32,6 +32,8 @@ constexpr Index kTooth = 2;
 constexpr double kLoopShare = 1.0 / 12;
 /// Of the wanted length of edges: what is farther off is no tooth but shape.
 constexpr double kMostOff = 0.5;
+/// Of the diagonal: what is farther off is seen, however large cells are.
+constexpr double kMostSeen = 0.005;
 /// A corner of the course turns by more than this, over this many times the reach of the mean to
 /// both sides.
 constexpr double kCornerReach = 2;
@@ -285,7 +287,9 @@ BorderCourse border_course(const TriMesh& mesh, const std::vector<double>& size,
       for (Index j = i - kTooth; j <= i + kTooth; ++j) {
         height = std::max(height, offsets[((j % count) + count) % count].norm());
       }
-      if (reach[i] == 0 || height > std::min(most_off, kMostOff * size[v])) continue;
+      if (reach[i] == 0 ||
+          height > std::min({most_off, kMostOff * size[v], kMostSeen * mesh.diagonal}))
+        continue;
       if (course.offset.empty()) course.offset.assign(mesh.positions.size(), Vec3::Zero());
       course.offset[v] = offsets[i];
     }

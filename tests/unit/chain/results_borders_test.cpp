@@ -16,8 +16,8 @@ namespace strake {
 namespace {
 
 constexpr int kColumns = 120;  ///< of triangles around the tube
-constexpr int kRows = 60;
-constexpr double kRow = 0.05;
+constexpr int kRows = 100;
+constexpr double kRow = 0.03;
 constexpr double kTop = kRows * kRow;  ///< height of the last whole row
 
 /// A tube of radius 1 that stands on a plain ring and ends above in a saw: of the last row of

@@ -76,8 +76,8 @@ TEST(VertexPlaces, HaveTheNormalsOfTheField) {
 /// Vertices in the middle of the teeth of a saw slide along it there; one on a flank stays on that.
 TEST(VertexPlaces, FollowTheCourseOfASaw) {
   constexpr Index kTeeth = 60;
-  constexpr double kHeight = 0.04;
-  constexpr Index kCells = 12;
+  constexpr double kHeight = 0.02;
+  constexpr Index kCells = 20;
   PolyMesh ring;
   for (const double radius : {1.0, 2.0}) {
     for (Index i = 0; i < 2 * kTeeth; ++i) {

@@ -14,16 +14,16 @@ namespace {
 
 /// Teeth along the outer border of the ring below, so high over the middle.
 constexpr int kTeeth = 60;
-constexpr double kHeight = 0.04;
+constexpr double kHeight = 0.02;
 
 /// A flat ring between circles of radius 1 and 2, the outer one a saw of triangles.
-PolyMesh saw_ring() {
+PolyMesh saw_ring(double height = kHeight) {
   PolyMesh faces;
   constexpr int kCount = 2 * kTeeth;
   for (const double radius : {1.0, 2.0}) {
     for (int i = 0; i < kCount; ++i) {
       const double angle = 2 * M_PI * i / kCount;
-      const double tooth = radius < 2 ? 0 : (i % 2 == 0 ? kHeight : -kHeight);
+      const double tooth = radius < 2 ? 0 : (i % 2 == 0 ? height : -height);
       faces.positions.emplace_back((radius + tooth) * std::cos(angle),
                                    (radius + tooth) * std::sin(angle), 0);
     }
@@ -81,6 +81,14 @@ TEST(BorderCourse, KeepsTeethAsWideAsCellsOrTooHigh) {
   EXPECT_TRUE(border_course(mesh, all(mesh, 0.15), 1).offset.empty());
   EXPECT_TRUE(border_course(mesh, all(mesh, 0.6), 0.5 * kHeight).offset.empty());
   EXPECT_FALSE(border_course(mesh, all(mesh, 0.6), 2 * kHeight).offset.empty());
+}
+
+// Half a percent of the diagonal is seen, however large cells are.
+TEST(BorderCourse, KeepsTeethThatAreSeen) {
+  const TriMesh mesh = support::plain_tri_mesh(saw_ring(0.02));
+  const TriMesh higher = support::plain_tri_mesh(saw_ring(0.04));
+  EXPECT_FALSE(border_course(mesh, all(mesh, 0.8), 1).offset.empty());
+  EXPECT_TRUE(border_course(higher, all(higher, 0.8), 1).offset.empty());
 }
 
 TEST(BorderCourse, LeavesOutCornersOfTeeth) {
