@@ -33,7 +33,7 @@ constexpr double kLoopShare = 1.0 / 12;
 /// Of the wanted length of edges: what is farther off is no tooth but shape.
 constexpr double kMostOff = 0.5;
 /// Of the diagonal: what is farther off is seen, however large cells are.
-constexpr double kMostSeen = 0.005;
+constexpr double kMostSeen = 0.0075;
 /// A corner of the course turns by more than this, over this many times the reach of the mean to
 /// both sides.
 constexpr double kCornerReach = 2;

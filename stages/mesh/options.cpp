@@ -40,7 +40,7 @@ OptionList MeshOptions::declare() {
        .target = &border_distance,
        .unit = "length",
        .help = "Saws that boundaries cut along triangles have are left out up to this height over "
-               "the middle, at most half a percent of the diagonal, where they are finer than "
+               "the middle, at most 0.75% of the diagonal, where they are finer than "
                "cells. strake remesh takes half the tolerance.",
        .min = 1e-7,
        .max = 1},

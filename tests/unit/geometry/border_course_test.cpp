@@ -83,7 +83,7 @@ TEST(BorderCourse, KeepsTeethAsWideAsCellsOrTooHigh) {
   EXPECT_FALSE(border_course(mesh, all(mesh, 0.6), 2 * kHeight).offset.empty());
 }
 
-// Half a percent of the diagonal is seen, however large cells are.
+// 0.75 % of the diagonal are seen, however large cells are.
 TEST(BorderCourse, KeepsTeethThatAreSeen) {
   const TriMesh mesh = support::plain_tri_mesh(saw_ring(0.02));
   const TriMesh higher = support::plain_tri_mesh(saw_ring(0.04));
