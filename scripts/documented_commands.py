@@ -49,11 +49,11 @@ ON_SMALL_MODELS = {
     "scripts/render_docs": "scripts/render_docs",
     "tests/bench/quality/quality.py --docs": _QUALITY,
     _QUALITY: _QUALITY,
-    "tests/bench/speed/speed.py --docs": f"{_SPEED} scan.ply --docs",
-    f"{_SPEED} [MESH...] --docs": f"{_SPEED} scan.ply --docs",
+    "tests/bench/speed/speed.py --docs": f"{_SPEED} models/scan/igea.ply --docs",
+    f"{_SPEED} [MESH...] --docs": f"{_SPEED} models/scan/igea.ply --docs",
     "tests/corpus/check_corpus.py all --strake build/bin/strake --table docs/models.md":
         "tests/corpus/check_corpus.py all --strake build/bin/strake --table docs/models.md",
-    "scripts/compare_builds build/bin build-clang/bin MESH...": "scripts/compare_builds build/bin build-clang/bin scan.ply",
+    "scripts/compare_builds build/bin build-clang/bin MESH...": "scripts/compare_builds build/bin build-clang/bin models/scan/igea.ply",
 }
 
 # Run by a person: why no test does.
