@@ -23,6 +23,8 @@ constexpr double kLargeShare = 0.05;
 constexpr int kShortPatience = 2;
 /// Attempts in a row that may leave no fewer faces that cross than the best one before.
 constexpr int kMostWithoutGain = 2;
+/// Attempts that leave more than half of the faces that cross, after which giving up is considered.
+constexpr int kSlowOnes = 2;
 
 /// One more attempt; nothing where it comes to no result, or to none within a tolerance.
 std::optional<Attempt> attempt_again(const Again& again, Session session,
@@ -39,7 +41,7 @@ std::optional<Attempt> attempt_again(const Again& again, Session session,
 }  // namespace
 
 Attempt part_faces(const Attempt& first, Index faces, int patience, const Again& again,
-                   const std::function<void(Attempt&)>& keep) {
+                   const GiveUp& give_up, const std::function<void(Attempt&)>& keep) {
   Attempt best = first;
   Attempt last = first;
   bool is_last_best = true;
@@ -48,6 +50,7 @@ Attempt part_faces(const Attempt& first, Index faces, int patience, const Again&
   const double share = static_cast<double>(first.places.size()) / faces;
   if (share > kLargeShare) patience = std::min(patience, kShortPatience);
   int without_gain = 0;
+  int slow = 0;
   const auto is_worth_it = [&] {
     return patience > 0 && without_gain < kMostWithoutGain && !best.places.empty() &&
            best.places.size() <= most;
@@ -65,11 +68,13 @@ Attempt part_faces(const Attempt& first, Index faces, int patience, const Again&
       break;
     }
     last = *std::move(next);
-    if (last.misses_goal || 2 * last.places.size() > best.places.size()) --patience;
+    const bool is_slow = last.misses_goal || 2 * last.places.size() > best.places.size();
+    if (is_slow) --patience;
     is_last_best = !last.misses_goal && last.places.size() < best.places.size();
     without_gain = is_last_best ? 0 : without_gain + 1;
     if (is_last_best) best = last;
     if (last.places == before) break;  // lines are as close as they may be: all would be the same
+    if (is_slow && ++slow == kSlowOnes && is_worth_it() && give_up(best)) break;
   }
   if (!is_last_best) keep(best);
   return best;

@@ -19,6 +19,10 @@ struct Attempt {
 /// See `part_faces`.
 using Again = std::function<Attempt(Session, const std::vector<Vec3>& places)>;
 
+/// Whether no more attempts are worth it, going by the best one so far.
+using GiveUp = std::function<bool(const Attempt& best)>;
+inline bool never_give_up(const Attempt& /*best*/) { return false; }
+
 /// Where lines lie across a tip or a fold, its cells come to cross. Makes the result again with
 /// closer lines at such faces, as long as that helps: not after two attempts in a row that leave no
 /// fewer of them.
@@ -26,9 +30,10 @@ using Again = std::function<Attempt(Session, const std::vector<Vec3>& places)>;
 /// \param faces     of its result: the more, the fewer attempts
 /// \param patience  attempts that may leave more than half of the faces that cross
 /// \param again     makes and keeps a result like a session's, with closer lines around places
-/// \param keep      keeps one again
-/// \return the attempt that meets its goal with the fewest faces that cross; it is the one kept
+/// \param give_up   asked once, after two attempts that leave more than half of the faces that
+/// cross \param keep      keeps one again \return the attempt that meets its goal with the fewest
+/// faces that cross; it is the one kept
 Attempt part_faces(const Attempt& first, Index faces, int patience, const Again& again,
-                   const std::function<void(Attempt&)>& keep);
+                   const GiveUp& give_up, const std::function<void(Attempt&)>& keep);
 
 }  // namespace strake

@@ -251,9 +251,10 @@ using WantCloser = std::function<void(Session&, const std::vector<Vec3>& places,
 
 /// Parts faces that cross, and brings lost details back, by closer lines there; the count is looked
 /// for again each time, from the scale on that `want_closer` leaves.
-/// \return the best attempt, which is kept
+/// \param give_up  see `part_faces` \return the best attempt, which is kept
 Attempt mend_by_closer_lines(const Attempt& first, const GoalStages& stages, const LineAim& aim,
-                             const WantCloser& want_closer, CrossingPlaces& crossing) {
+                             const WantCloser& want_closer, const GiveUp& give_up,
+                             CrossingPlaces& crossing) {
   const double first_miss = miss_of(first, aim);
   const auto closer_by = [&](double factor, bool with_strips) {
     return [&, factor, with_strips](Session next, const std::vector<Vec3>& places) {
@@ -265,10 +266,12 @@ Attempt mend_by_closer_lines(const Attempt& first, const GoalStages& stages, con
     };
   };
   const auto keep = [&](Attempt& attempt) { keep_attempt(attempt, stages); };
+  bool is_given_up = false;
+  const GiveUp asked = [&](const Attempt& best) { return is_given_up = give_up(best); };
   Attempt best = part_faces(first, first.done.get<QuadMesh>("fitted").mesh.face_count(), kPatience,
-                            closer_by(kCloserWhereCrossing, false), keep);
+                            closer_by(kCloserWhereCrossing, false), asked, keep);
   // Where lines miss the count they have no room for details.
-  if (first_miss > kCountTolerance) return best;
+  if (first_miss > kCountTolerance || is_given_up) return best;
   return regain_details(best, closer_by(kCloserAtDetails, true), keep);
 }
 
@@ -301,9 +304,13 @@ void trace_to_count(Session& session, const GoalStages& stages, const LineAim& a
   const Attempt first = fit_either(session, stages, aim, crossing, has_strips);
   const bool is_in_vain = may_be_decimated && !first.places.empty() &&
                           lines_miss_shape(first.done, stages, aim.counted, aim.wanted);
-  session = is_in_vain
-                ? first.done
-                : mend_by_closer_lines(first, stages, aim, want_relatively_closer, crossing).done;
+  const GiveUp for_decimation = [&](const Attempt& best) {
+    return may_be_decimated && decimation_is_better(best.done, stages, aim.counted, aim.wanted);
+  };
+  session = is_in_vain ? first.done
+                       : mend_by_closer_lines(first, stages, aim, want_relatively_closer,
+                                              for_decimation, crossing)
+                             .done;
 }
 
 /// Traces, and closer where so many faces cross that lines are too coarse for the shape. Then makes
@@ -350,7 +357,8 @@ std::string fit_freely(Session& session, const GoalStages& stages, double left) 
   // On broken meshes faces cross whatever is tried.
   const bool is_sound = first.places.empty();
   session =
-      is_sound ? mend_by_closer_lines(first, stages, aim, want_closer, crossing).done : first.done;
+      is_sound ? mend_by_closer_lines(first, stages, aim, want_closer, never_give_up, crossing).done
+               : first.done;
   if (session.has("uncrossed")) session.keep(stages.uncross);
   return result_port(session);
 }
@@ -423,7 +431,7 @@ std::string meet_tolerance(Session& session, const GoalStages& stages, const std
     attempt.done.keep(stages.refine);
   };
   const Index faces = first.done.get<QuadMesh>("refined").mesh.face_count();
-  session = part_faces(first, faces, kPatienceWithinTolerance, again, keep).done;
+  session = part_faces(first, faces, kPatienceWithinTolerance, again, never_give_up, keep).done;
   warn_of_excess(session);
   return "refined";
 }

@@ -122,19 +122,31 @@ Session decimated(Session session, const GoalStages& stages, const Goal& goal) {
   return session;
 }
 
+/// What is wrong then; nothing where it cannot be done, which is said when it is to take the place
+/// of lines.
+std::optional<ResultFaults> faults_decimated(const Session& session, const GoalStages& stages,
+                                             const Goal& goal) {
+  try {
+    return faults_of(decimated(session, stages, goal), goal.counted, goal.wanted);
+  } catch (const AlgorithmError&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace
+
+bool decimation_is_better(const Session& session, const GoalStages& stages, Counted counted,
+                          std::int64_t wanted) {
+  const std::optional<ResultFaults> left = faults_decimated(session, stages, {counted, wanted});
+  return left && is_much_better(*left, faults_of(session, counted, wanted));
+}
 
 bool lines_miss_shape(const Session& session, const GoalStages& stages, Counted counted,
                       std::int64_t wanted) {
   const ResultFaults faults = faults_of(session, counted, wanted);
   if (faults.distance <= kSeen) return false;
-  try {
-    const Session other = decimated(session, stages, {counted, wanted});
-    const ResultFaults left = faults_of(other, counted, wanted);
-    return is_shape_missed(left, faults) && is_much_better(left, faults);
-  } catch (const AlgorithmError&) {
-    return false;  // said when it is to take the place of lines
-  }
+  const std::optional<ResultFaults> left = faults_decimated(session, stages, {counted, wanted});
+  return left && is_shape_missed(*left, faults) && is_much_better(*left, faults);
 }
 
 bool decimate_if_too_coarse(Session& session, const GoalStages& stages, Counted counted,

@@ -21,6 +21,11 @@ namespace strake {
 bool decimate_if_too_coarse(Session& session, const GoalStages& stages, Counted counted,
                             std::int64_t wanted);
 
+/// Whether it would be decimated as it is: faces cross or it is farther off, and decimation is much
+/// better.
+bool decimation_is_better(const Session& session, const GoalStages& stages, Counted counted,
+                          std::int64_t wanted);
+
 /// Whether a result made from lines misses the shape by so much, with cells of which one sees that,
 /// that closer lines in places are in vain: decimation to the same count is at less than a quarter
 /// of the distance.

@@ -28,8 +28,16 @@ class Attempts {
           EXPECT_EQ(places.size(), left_.at(made_ - 1));
           return next(std::move(session));
         },
+        [&](const Attempt& best) {
+          asked_of_.push_back(best.places.size());
+          return gives_up_;
+        },
         [&](Attempt& attempt) { kept_ = attempt.places.size(); });
   }
+  /// From now on as soon as that is asked.
+  void give_up() { gives_up_ = true; }
+  /// Faces that cross in the attempts that it was asked of.
+  [[nodiscard]] const std::vector<std::size_t>& asked_of() const { return asked_of_; }
   /// Those that were made again.
   [[nodiscard]] std::size_t again() const { return made_ - 1; }
   /// Faces that the attempt crosses in that was kept again; 0 where none was.
@@ -47,6 +55,8 @@ class Attempts {
   std::vector<std::size_t> left_;
   std::size_t made_ = 0;
   std::size_t kept_ = 0;
+  bool gives_up_ = false;
+  std::vector<std::size_t> asked_of_;
 };
 
 TEST(PartFaces, EndsWhereNoFacesCross) {
@@ -67,6 +77,19 @@ TEST(PartFaces, GivesUpAfterFiveThatDoNotAndKeepsTheBest) {
   EXPECT_EQ(attempts.part(10'000).places.size(), 77u);
   EXPECT_EQ(attempts.again(), 5u);
   EXPECT_EQ(attempts.kept(), 77u);
+}
+
+TEST(PartFaces, AsksOnceWhetherToGiveUpAfterTwoThatLeaveMoreThanHalf) {
+  Attempts going_on({64, 60, 20, 19, 12, 0});
+  EXPECT_TRUE(going_on.part(10'000).places.empty());
+  EXPECT_EQ(going_on.asked_of(), std::vector<std::size_t>{19});
+  Attempts giving_up({64, 60, 20, 19, 12, 0});
+  giving_up.give_up();
+  EXPECT_EQ(giving_up.part(10'000).places.size(), 19u);
+  EXPECT_EQ(giving_up.again(), 3u);
+  Attempts helping({64, 30, 12, 0});
+  helping.part(10'000);
+  EXPECT_TRUE(helping.asked_of().empty());
 }
 
 TEST(PartFaces, GivesUpAfterTwoInARowThatLeaveNoFewer) {
@@ -103,8 +126,8 @@ TEST(PartFaces, KeepsTheBestWhereAnAttemptComesToNothing) {
   const Attempt first{session, session, std::vector<Vec3>(8, Vec3::Zero()), false};
   const auto after = [&](const Again& again) {
     std::size_t kept = 0;
-    const Attempt best =
-        part_faces(first, 100, 5, again, [&](Attempt& attempt) { kept = attempt.places.size(); });
+    const Attempt best = part_faces(first, 100, 5, again, never_give_up,
+                                    [&](Attempt& attempt) { kept = attempt.places.size(); });
     EXPECT_EQ(kept, 8u);
     return best.places.size();
   };
