@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -17,9 +19,13 @@
 #include "stages/evaluate/kept_edges.h"
 #include "stages/evaluate/measured_surface.h"
 #include "stages/evaluate/shape.h"
+#include "stages/evaluate/thickness.h"
 
 namespace strake {
 namespace {
+
+/// Samples of distances for one of thickness.
+constexpr std::int64_t kDistancesPerThickness = 4;
 
 /// Of an oriented manifold, as every TriMesh is one.
 PolyTopology topology_of(const TriMesh& mesh) {
@@ -120,6 +126,15 @@ EvaluateResult evaluate_mesh(const TriMesh& reference, const PrincipalField* fie
       {reference_surface, reference_vertices}, {candidate_surface, candidate_vertices},
       reference.diagonal, options.samples, observer, report);
   if (options.tolerance) require_within(*options.tolerance, farthest, reference);
+
+  observer.report("thickness", 0);
+  evaluation::report_thickness(
+      {.reference = reference_surface,
+       .candidate = candidate_surface,
+       .origin = reference.origin,
+       .cell = std::sqrt(reference_surface.area() / local.face_count()),
+       .samples = std::max<std::int64_t>(options.samples / kDistancesPerThickness, 1)},
+      report);
 
   observer.report("features and alignment", 0);
   evaluation::report_kept_edges(reference, local, edges, report);

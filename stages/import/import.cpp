@@ -20,6 +20,7 @@
 #include "stages/import/flat_faces.h"
 #include "stages/import/noise.h"
 #include "stages/import/openings.h"
+#include "stages/import/own_crossings.h"
 #include "stages/import/sew.h"
 #include "stages/import/sheets.h"
 #include "stages/import/soup.h"
@@ -139,6 +140,7 @@ void report_repairs(const Repairs& repairs, double removed_percent, double diago
   report.set("repairs.weld_tolerance", repairs.weld_tolerance / diagonal);
   report.set("repairs.sewn_vertices", repairs.sewn_vertices);
   report.set("repairs.widest_gap", repairs.widest_gap / diagonal);
+  report.set("repairs.farthest_moved", repairs.farthest_moved / diagonal);
   report.set("repairs.flipped_faces", repairs.flipped_faces);
   report.set("repairs.non_orientable_cuts", repairs.non_orientable_cuts);
   report.set("repairs.non_manifold_edges", repairs.non_manifold_edges);
@@ -166,17 +168,18 @@ void report_near_borders(const import::NearBorders& near, double diagonal, Repor
   report.set("borders.near_widest", near.widest / diagonal);
   if (near.edges == 0) return;
   constexpr double kTouching = 1e-9;
+  const bool is_one = near.edges == 1;
   const std::string where =
       near.widest <= kTouching * diagonal
-          ? "touch another border"
-          : fmt::format("lie within {:.2g} % of the diagonal of another border",
-                        100 * near.widest / diagonal);
+          ? fmt::format("touch{} another border", is_one ? "es" : "")
+          : fmt::format("{} within {:.2g} % of the diagonal of another border",
+                        is_one ? "lies" : "lie", 100 * near.widest / diagonal);
   report.warn(fmt::format(
-      "{} border edges {} without being joined, so the result may have cracks there: their ends "
+      "{} border edge{} {} without being joined, so the result may have cracks there: ends "
       "do not lie side by side, or the gap is wide, or open all along like a slit; where the "
       "surface should go on, close it before (merge vertices by distance, divide both sides "
       "alike, or export with a finer tolerance)",
-      near.edges, where));
+      near.edges, is_one ? "" : "s", where));
 }
 
 void report_census(const TriMesh& mesh, const Census& counts, Report& report) {
@@ -270,6 +273,20 @@ void report_orientation(const TriMesh& mesh, const Census& counts, Report& repor
   report.warn(what +
               " inwards, and those of the result will; turn them over before if they should "
               "look outwards");
+}
+
+/// Of the mesh before long edges are divided: the faces that a user knows.
+void report_crossings(const TriMesh& mesh, Report& report) {
+  const import::OwnCrossings own = import::find_own_crossings(mesh);
+  report.set("crossings.pairs", own.pairs);
+  if (own.pairs == 0) return;
+  const Vec3 place = own.place + mesh.origin;
+  report.warn(fmt::format(
+      "{} pair{} of faces of the mesh itself cross{}, one of them near ({:.6g}, {:.6g}, {:.6g}): "
+      "the result follows the surface and crosses itself there, too; where it should not, unite "
+      "the model's parts before (a boolean union), or repair it",
+      own.pairs, own.pairs == 1 ? "" : "s", own.pairs == 1 ? "es" : "", place.x(), place.y(),
+      place.z()));
 }
 
 FeatureRules feature_rules(const ImportOptions& options, double diagonal) {
@@ -369,6 +386,7 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
   if (!options.no_attributes) warn_of_open_labels(features, result.report);
   report_noise(result.mesh, result.report);
   warn_of_steps(result.mesh, features, result.report);
+  report_crossings(result.mesh, result.report);
   divide_long_edges(result.mesh, options, result.report);
   build_wedges(result.mesh);
   observer.report("checking", 0.8);
