@@ -18,6 +18,7 @@
 #include "stages/evaluate/deviation.h"
 #include "stages/evaluate/kept_edges.h"
 #include "stages/evaluate/measured_surface.h"
+#include "stages/evaluate/own_crossings.h"
 #include "stages/evaluate/shape.h"
 #include "stages/evaluate/thickness.h"
 
@@ -25,7 +26,7 @@ namespace strake {
 namespace {
 
 /// Samples of distances for one of thickness.
-constexpr std::int64_t kDistancesPerThickness = 4;
+constexpr std::int64_t kDistancesPerThickness = 10;
 
 /// Of an oriented manifold, as every TriMesh is one.
 PolyTopology topology_of(const TriMesh& mesh) {
@@ -113,7 +114,8 @@ EvaluateResult evaluate_mesh(const TriMesh& reference, const PrincipalField* fie
   PolyMesh local = candidate;
   for (Vec3& p : local.positions) p -= reference.origin;
   const FaceTriangles triangles = triangulate_faces(local);
-  evaluation::report_shape(local, topology, triangles, edges, report);
+  const std::int64_t crossing = evaluation::report_shape(local, topology, triangles, edges, report);
+  evaluation::report_own_crossings(reference, crossing, report);
   evaluation::report_valence(local, edges, report);
 
   const evaluation::MeasuredSurface reference_surface(reference.positions, reference.faces,

@@ -12,6 +12,10 @@ namespace {
 
 /// Share of a thickness by which it may change: that of a square in place of a circle does by 0.3.
 constexpr double kMayChange = 0.35;
+/// Cosine of the angle by which two sides may differ from parallel ones: those of rods of five
+/// sides and more do by 36 degrees at most. What is farther open, as along the edge of a groove or
+/// a wedge, ends in an edge and is as thin as one looks near to that.
+constexpr double kAgainst = 0.8;
 /// Change that nobody sees, in lengths of cells, and area with a larger one, in those of cells.
 constexpr double kUnseen = 0.1;
 constexpr double kFewCells = 0.15;
@@ -34,8 +38,8 @@ double least_change(double thickness, double cell) {
 }
 
 Through look_through(const ThicknessRequest& request, const SurfaceSample& at) {
-  const double thickness =
-      request.reference.distance().distance_to_back(at.position, -at.normal, request.cell);
+  const double thickness = request.reference.distance().distance_to_back(at.position, -at.normal,
+                                                                         request.cell, kAgainst);
   if (std::isinf(thickness)) return {};
   const SurfaceDistance& candidate = request.candidate.distance();
   const Vec3 opposite = at.position - thickness * at.normal;

@@ -20,7 +20,6 @@
 #include "stages/import/flat_faces.h"
 #include "stages/import/noise.h"
 #include "stages/import/openings.h"
-#include "stages/import/own_crossings.h"
 #include "stages/import/sew.h"
 #include "stages/import/sheets.h"
 #include "stages/import/soup.h"
@@ -275,20 +274,6 @@ void report_orientation(const TriMesh& mesh, const Census& counts, Report& repor
               "look outwards");
 }
 
-/// Of the mesh before long edges are divided: the faces that a user knows.
-void report_crossings(const TriMesh& mesh, Report& report) {
-  const import::OwnCrossings own = import::find_own_crossings(mesh);
-  report.set("crossings.pairs", own.pairs);
-  if (own.pairs == 0) return;
-  const Vec3 place = own.place + mesh.origin;
-  report.warn(fmt::format(
-      "{} pair{} of faces of the mesh itself cross{}, one of them near ({:.6g}, {:.6g}, {:.6g}): "
-      "the result follows the surface and crosses itself there, too; where it should not, unite "
-      "the model's parts before (a boolean union), or repair it",
-      own.pairs, own.pairs == 1 ? "" : "s", own.pairs == 1 ? "es" : "", place.x(), place.y(),
-      place.z()));
-}
-
 FeatureRules feature_rules(const ImportOptions& options, double diagonal) {
   const auto wants = [&](const char* kind) {
     return options.attribute_features == "all" || options.attribute_features == kind;
@@ -386,7 +371,6 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
   if (!options.no_attributes) warn_of_open_labels(features, result.report);
   report_noise(result.mesh, result.report);
   warn_of_steps(result.mesh, features, result.report);
-  report_crossings(result.mesh, result.report);
   divide_long_edges(result.mesh, options, result.report);
   build_wedges(result.mesh);
   observer.report("checking", 0.8);

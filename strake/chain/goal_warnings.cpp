@@ -64,8 +64,8 @@ void warn_of_excess(Session& session) {
 }
 
 void say_what_is_proven(Session& session, double tolerance) {
-  const double moved = number_of(session, "import", "repairs.farthest_moved") +
-                       number_of(session, "import", "noise.moved_largest_share");
+  const double smoothed = number_of(session, "import", "noise.moved_largest_share");
+  const double moved = number_of(session, "import", "repairs.farthest_moved") + smoothed;
   double removed = 0;
   for (const char* kind : {"unusable_faces", "inner_faces", "folded_slivers"}) {
     removed += number_of(session, "import", std::string("repairs.") + kind);
@@ -79,8 +79,10 @@ void say_what_is_proven(Session& session, double tolerance) {
                         removed == 1 ? "" : "s");
   }
   if (what.empty()) return;
-  session.say("warning: the tolerance is proven for the mesh after repairs, and these " + what +
-              ": the result may be farther from the file by that");
+  session.say(fmt::format(
+      "warning: the tolerance is proven for the mesh after repairs{}, and these {}: the "
+      "result may be farther from the file by that",
+      smoothed > 0 ? " and --denoise" : "", what));
 }
 
 }  // namespace strake

@@ -253,7 +253,8 @@ ClosestPoint SurfaceDistance::query(const Vec3& p, const ClosestPoint& best,
   return search.best;
 }
 
-double SurfaceDistance::distance_to_back(const Vec3& p, const Vec3& direction, double reach) const {
+double SurfaceDistance::distance_to_back(const Vec3& p, const Vec3& direction, double reach,
+                                         double least_cosine) const {
   const Vec3 local = scale_ * (p - centre_);
   RTCRayHit ray = {};
   ray.ray.org_x = static_cast<float>(local.x());
@@ -272,7 +273,8 @@ double SurfaceDistance::distance_to_back(const Vec3& p, const Vec3& direction, d
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::numeric_limits<double>::infinity();
   const auto& [a, b, c] = triangles_[ray.hit.primID];
   const Vec3 normal = (positions_[b] - positions_[a]).cross(positions_[c] - positions_[a]);
-  if (!(normal.dot(direction) > 0)) return std::numeric_limits<double>::infinity();
+  if (!(normal.dot(direction) > least_cosine * normal.norm()))
+    return std::numeric_limits<double>::infinity();
   return ray.ray.tfar / scale_;
 }
 

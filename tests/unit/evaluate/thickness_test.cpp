@@ -68,6 +68,20 @@ TEST(Thickness, WhatMovesAsAWholeKeepsIt) {
   }
 }
 
+// Along the edge of a wedge, or of a groove, there is always a place that is as thin as one likes.
+TEST(Thickness, ABluntedEdgeIsNoThinPart) {
+  // A bar whose sides meet above it in an edge, `open` apart below it, and the edge cut off.
+  const auto wedge = [](Index n, double open, double top) {
+    return shapes::moved(bar(n, 2), [&](const Vec3& p) {
+      const double left = (1 - p.z()) / 2;  // 1 below, 0 above
+      const double up = std::min(p.z(), top);
+      return Vec3(p.x(), p.y() * open * (left + 0.01), up);
+    });
+  };
+  // 44 degrees.
+  EXPECT_FALSE(is_warned(report_on(wedge(16, 1.6, 1), wedge(2, 1.6, 0.5))));
+}
+
 TEST(Thickness, PlacesAreThoseOfTheFile) {
   const Vec3 far(1000, 0, 0);
   const auto shifted = [&](const PolyMesh& mesh) {

@@ -1,16 +1,20 @@
-#include "stages/import/own_crossings.h"
+#include "stages/evaluate/own_crossings.h"
 
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
 #include <vector>
 
+#include "common/geometry/face_crossings/box_tree.h"
 #include "common/geometry/face_crossings/face_crossings.h"
 #include "common/geometry/face_crossings/penetration.h"
 #include "common/geometry/poly_topology/face_shape.h"
 
-namespace strake::import {
+namespace strake::evaluation {
 namespace {
 
 /// Share of the diagonal up to which faces touch: what files of single precision leave of a common
@@ -20,6 +24,11 @@ constexpr double kTouchingDepth = 1e-6;
 std::array<Vec3, 3> corners_of(const TriMesh& mesh, Index face) {
   const auto& [a, b, c] = mesh.faces[face];
   return {mesh.positions[a], mesh.positions[b], mesh.positions[c]};
+}
+
+BoxTree::Box box_of(const std::array<Vec3, 3>& triangle) {
+  BoxTree::Box box(triangle[0]);
+  return box.extend(triangle[1]).extend(triangle[2]);
 }
 
 /// Whether triangles lie on each other as sides of solids that touch do: in a plane, but for
@@ -52,9 +61,23 @@ OwnCrossings find_own_crossings(const TriMesh& mesh) {
     ++own.pairs;
     if (depth <= deepest) continue;
     deepest = depth;
-    own.place = (one[0] + one[1] + one[2]) / 3;
+    own.place = box_of(one).intersection(box_of(two)).center();
   }
   return own;
 }
 
-}  // namespace strake::import
+void report_own_crossings(const TriMesh& reference, std::int64_t pairs, Report& report) {
+  if (pairs == 0) return;
+  const OwnCrossings own = find_own_crossings(reference);
+  report.set("shape.reference_crossing_pairs", own.pairs);
+  if (own.pairs == 0) return;
+  const Vec3 place = own.place + reference.origin;
+  report.warn(fmt::format(
+      "{} pair{} of faces of the result cross{}, and the input itself has {} such pair{}, one near "
+      "({:.6g}, {:.6g}, {:.6g}): the result follows it and crosses itself there, too; where it "
+      "should not, unite the parts of the model first (a boolean union), or repair it",
+      pairs, pairs == 1 ? "" : "s", pairs == 1 ? "es" : "", own.pairs, own.pairs == 1 ? "" : "s",
+      place.x(), place.y(), place.z()));
+}
+
+}  // namespace strake::evaluation
