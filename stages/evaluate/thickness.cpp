@@ -19,6 +19,8 @@ constexpr double kAgainst = 0.8;
 /// Change that nobody sees, in lengths of cells, and area with a larger one, in those of cells.
 constexpr double kUnseen = 0.1;
 constexpr double kFewCells = 0.15;
+/// Samples that may be chance: at many cells those of such an area are fewer than one.
+constexpr std::int64_t kFewSamples = 2;
 
 /// What is seen from a place through the body; model units.
 struct Through {
@@ -74,7 +76,8 @@ void report_thickness(const ThicknessRequest& request, Report& report) {
   const double share = static_cast<double>(changed) / samples;
   report.set("thickness.thin_share", static_cast<double>(thin) / samples);
   report.set("thickness.changed_share", share);
-  if (share * request.reference.area() <= kFewCells * request.cell * request.cell) return;
+  const double cells = share * request.reference.area() / (request.cell * request.cell);
+  if (changed <= kFewSamples || cells <= kFewCells) return;
   const Vec3 place = request.reference.sample(worst, request.samples).position + request.origin;
   report.set("thickness.worst", seen[worst].thickness);
   report.set("thickness.worst_now", seen[worst].now);
