@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -16,10 +18,15 @@
 #include "stages/evaluate/deviation.h"
 #include "stages/evaluate/kept_edges.h"
 #include "stages/evaluate/measured_surface.h"
+#include "stages/evaluate/own_crossings.h"
 #include "stages/evaluate/shape.h"
+#include "stages/evaluate/thickness.h"
 
 namespace strake {
 namespace {
+
+/// Samples of distances for one of thickness.
+constexpr std::int64_t kDistancesPerThickness = 10;
 
 /// Of an oriented manifold, as every TriMesh is one.
 PolyTopology topology_of(const TriMesh& mesh) {
@@ -107,7 +114,8 @@ EvaluateResult evaluate_mesh(const TriMesh& reference, const PrincipalField* fie
   PolyMesh local = candidate;
   for (Vec3& p : local.positions) p -= reference.origin;
   const FaceTriangles triangles = triangulate_faces(local);
-  evaluation::report_shape(local, topology, triangles, edges, report);
+  const std::int64_t crossing = evaluation::report_shape(local, topology, triangles, edges, report);
+  evaluation::report_own_crossings(reference, crossing, report);
   evaluation::report_valence(local, edges, report);
 
   const evaluation::MeasuredSurface reference_surface(reference.positions, reference.faces,
@@ -120,6 +128,15 @@ EvaluateResult evaluate_mesh(const TriMesh& reference, const PrincipalField* fie
       {reference_surface, reference_vertices}, {candidate_surface, candidate_vertices},
       reference.diagonal, options.samples, observer, report);
   if (options.tolerance) require_within(*options.tolerance, farthest, reference);
+
+  observer.report("thickness", 0);
+  evaluation::report_thickness(
+      {.reference = reference_surface,
+       .candidate = candidate_surface,
+       .origin = reference.origin,
+       .cell = std::sqrt(reference_surface.area() / local.face_count()),
+       .samples = std::max<std::int64_t>(options.samples / kDistancesPerThickness, 1)},
+      report);
 
   observer.report("features and alignment", 0);
   evaluation::report_kept_edges(reference, local, edges, report);

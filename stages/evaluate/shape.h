@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "common/core/poly_mesh.h"
 #include "common/core/report.h"
 #include "common/geometry/poly_topology/face_shape.h"
@@ -19,8 +21,9 @@ namespace strake::evaluation {
 /// `angles.face_share_above_10_deg` is the share of faces whose smallest angle is above 10 degrees.
 /// `shape.self_intersecting_pairs` counts the pairs of faces that meet anywhere but in the corners
 /// and edges they share.
-void report_shape(const PolyMesh& mesh, const PolyTopology& topology,
-                  const FaceTriangles& triangles, const PolyEdges& edges, Report& report);
+/// \return these pairs
+std::int64_t report_shape(const PolyMesh& mesh, const PolyTopology& topology,
+                          const FaceTriangles& triangles, const PolyEdges& edges, Report& report);
 
 /// Reports "valence.*": edges at the vertices that are not on a boundary or non-manifold edge.
 /// A T-joint is such a vertex of valence 3 with a corner of more than 160 degrees.

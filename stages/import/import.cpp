@@ -139,6 +139,7 @@ void report_repairs(const Repairs& repairs, double removed_percent, double diago
   report.set("repairs.weld_tolerance", repairs.weld_tolerance / diagonal);
   report.set("repairs.sewn_vertices", repairs.sewn_vertices);
   report.set("repairs.widest_gap", repairs.widest_gap / diagonal);
+  report.set("repairs.farthest_moved", repairs.farthest_moved / diagonal);
   report.set("repairs.flipped_faces", repairs.flipped_faces);
   report.set("repairs.non_orientable_cuts", repairs.non_orientable_cuts);
   report.set("repairs.non_manifold_edges", repairs.non_manifold_edges);
@@ -166,17 +167,18 @@ void report_near_borders(const import::NearBorders& near, double diagonal, Repor
   report.set("borders.near_widest", near.widest / diagonal);
   if (near.edges == 0) return;
   constexpr double kTouching = 1e-9;
+  const bool is_one = near.edges == 1;
   const std::string where =
       near.widest <= kTouching * diagonal
-          ? "touch another border"
-          : fmt::format("lie within {:.2g} % of the diagonal of another border",
-                        100 * near.widest / diagonal);
+          ? fmt::format("touch{} another border", is_one ? "es" : "")
+          : fmt::format("{} within {:.2g} % of the diagonal of another border",
+                        is_one ? "lies" : "lie", 100 * near.widest / diagonal);
   report.warn(fmt::format(
-      "{} border edges {} without being joined, so the result may have cracks there: their ends "
+      "{} border edge{} {} without being joined, so the result may have cracks there: ends "
       "do not lie side by side, or the gap is wide, or open all along like a slit; where the "
       "surface should go on, close it before (merge vertices by distance, divide both sides "
       "alike, or export with a finer tolerance)",
-      near.edges, where));
+      near.edges, is_one ? "" : "s", where));
 }
 
 void report_census(const TriMesh& mesh, const Census& counts, Report& report) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "common/core/disjoint_sets.h"
 #include "common/geometry/face_crossings/box_tree.h"
@@ -164,6 +165,50 @@ std::vector<Index> find_chains(const std::vector<EdgePair>& pairs) {
   return chain;
 }
 
+/// The ends of border edges, by vertex.
+class BorderEnds {
+ public:
+  BorderEnds(const Soup& soup, const std::vector<Index>& border) : soup_(soup) {
+    for (const Index h : border) {
+      at_.emplace_back(soup.from(h), soup.to(h));
+      at_.emplace_back(soup.to(h), soup.from(h));
+    }
+    std::sort(at_.begin(), at_.end());
+  }
+
+  /// Whether two border edges are a notch of the outline: they part at the vertex that they share,
+  /// and the border turns off where the shorter one ends. Along a crack it goes on beside the
+  /// other.
+  [[nodiscard]] bool is_notch(Index g, Index h) const {
+    const Index shared = touches(h, soup_.from(g)) ? soup_.from(g) : soup_.to(g);
+    if (!touches(h, shared)) return false;
+    const Index of_g = soup_.from(g) + soup_.to(g) - shared;
+    const Index of_h = soup_.from(h) + soup_.to(h) - shared;
+    const bool is_g = way(shared, of_g).squaredNorm() <= way(shared, of_h).squaredNorm();
+    return !goes_on(shared, is_g ? of_g : of_h);
+  }
+
+ private:
+  [[nodiscard]] bool touches(Index h, Index vertex) const {
+    return soup_.from(h) == vertex || soup_.to(h) == vertex;
+  }
+  [[nodiscard]] Vec3 way(Index from, Index to) const {
+    return soup_.positions[to] - soup_.positions[from];
+  }
+  /// Whether a border edge leads straight on where the one from `from` to `at` ends.
+  [[nodiscard]] bool goes_on(Index from, Index at) const {
+    const Vec3 along = way(from, at).stableNormalized();
+    for (auto end = std::lower_bound(at_.begin(), at_.end(), std::pair(at, Index{0}));
+         end != at_.end() && end->first == at; ++end) {
+      if (along.dot(way(at, end->second).stableNormalized()) > kOnTop) return true;
+    }
+    return false;
+  }
+
+  const Soup& soup_;
+  std::vector<std::pair<Index, Index>> at_;  ///< a vertex and the other end of an edge there
+};
+
 /// Whether the borders leave room between them at both ends, along the surface.
 bool is_open(const Soup& soup, const EdgePair& pair, const Vec3& inward, const Vec3& beyond) {
   const Vec3 across = (beyond - inward).stableNormalized();
@@ -209,11 +254,12 @@ std::vector<Index> sew_gaps(Soup& soup, const std::vector<Index>& border, double
     for (int k = 0; k < 2; ++k) joined.unite(pairs[i].first[k], pairs[i].second[k]);
     repairs.widest_gap = std::max(repairs.widest_gap, pairs[i].gap);
   }
-  repairs.sewn_vertices = rename_vertices(soup, joined);
+  repairs.sewn_vertices = rename_vertices(soup, joined, repairs.farthest_moved);
   return repairs.sewn_vertices > 0 ? without_joined(soup, border) : border;
 }
 
 NearBorders find_near_borders(const Soup& soup, const std::vector<Index>& border, double diagonal) {
+  const BorderEnds ends(soup, border);
   std::vector<BoxTree::Box> boxes;
   boxes.reserve(border.size());
   for (const Index h : border) {
@@ -241,7 +287,8 @@ NearBorders find_near_borders(const Soup& soup, const std::vector<Index>& border
       const Vec3 beyond = inward(soup, border[j]);
       const double overlap = std::min(gap.dot(into), -gap.dot(beyond));
       const bool is_strip = overlap > kAcross * gap.norm() && gap.norm() > kRounding * diagonal;
-      if (is_along && into.dot(beyond) <= kOnTop && !is_strip) nearest[i] = gap.norm();
+      if (!is_along || into.dot(beyond) > kOnTop || is_strip) return;
+      if (!ends.is_notch(h, border[j])) nearest[i] = gap.norm();
     });
   });
   NearBorders near;

@@ -28,7 +28,8 @@ struct NearBorders {
 };
 
 /// Finds border edges whose middle is within 0.05 % of the diagonal and a quarter of their length
-/// of another border edge along them, where the surface would go on and no strip lies between.
+/// of another border edge along them, where the surface would go on and no strip lies between;
+/// notches of an outline, one edge deep, are none.
 /// \param border  half-edges of edges with one face
 NearBorders find_near_borders(const Soup& soup, const std::vector<Index>& border, double diagonal);
 

@@ -50,6 +50,7 @@ struct Repairs {
   std::int64_t unreferenced_vertices = 0;  ///< dropped; no defect
   double weld_tolerance = 0;               ///< model units
   double widest_gap = 0;                   ///< of those that were sewn, model units
+  double farthest_moved = 0;               ///< most that merging moved a corner by, model units
 };
 
 /// Half-edges of a soup grouped by edge: those with the same two vertices, in order of index.

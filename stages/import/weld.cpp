@@ -119,9 +119,16 @@ void unite_edges(const Soup& soup, const ClusterEdge& a, const ClusterEdge& b,
 
 }  // namespace
 
-std::int64_t rename_vertices(Soup& soup, DisjointSets& joined) {
+std::int64_t rename_vertices(Soup& soup, DisjointSets& joined, double& farthest) {
   std::int64_t gone = 0;
-  for (Index v = 0; v < soup.vertex_count(); ++v) gone += joined.find(v) == v ? 0 : 1;
+  double largest = 0;
+  for (Index v = 0; v < soup.vertex_count(); ++v) {
+    const Index kept = joined.find(v);
+    if (kept == v) continue;
+    ++gone;
+    largest = std::max(largest, (soup.positions[v] - soup.positions[kept]).norm());
+  }
+  farthest += largest;
   if (gone == 0) return 0;
   for (Triangle& face : soup.faces) {
     for (Index& v : face) v = joined.find(v);
@@ -175,7 +182,7 @@ std::vector<Index> weld_borders(Soup& soup, double diagonal, Repairs& repairs) {
       unite_edges(soup, edges[i - 1], edges[i], clusters, joined);
     }
   }
-  repairs.welded_vertices = rename_vertices(soup, joined);
+  repairs.welded_vertices = rename_vertices(soup, joined, repairs.farthest_moved);
   if (repairs.welded_vertices > 0) repairs.weld_tolerance = tolerance;
   return without_joined(soup, border);
 }

@@ -21,7 +21,9 @@ std::vector<Index> weld_borders(Soup& soup, double diagonal, Repairs& repairs);
 /// ascending: what is left of borders after vertices were joined.
 std::vector<Index> without_joined(const Soup& soup, const std::vector<Index>& border);
 
-/// Replaces vertices by the lowest of those they are joined to. \return vertices that went
-std::int64_t rename_vertices(Soup& soup, DisjointSets& joined);
+/// Replaces vertices by the lowest of those they are joined to.
+/// \param farthest  grows by the largest distance to one of these, model units
+/// \return vertices that went
+std::int64_t rename_vertices(Soup& soup, DisjointSets& joined, double& farthest);
 
 }  // namespace strake::import

@@ -30,6 +30,7 @@
 #include "stages/trace/stage.h"
 #include "strake/chain/facet_height.h"
 #include "strake/chain/facet_trial.h"
+#include "strake/chain/goal_warnings.h"
 #include "strake/chain/goals.h"
 
 namespace strake {
@@ -251,7 +252,12 @@ const Report& Chain::measure(Session& session, const std::string& port) const {
                          std::string(error.what()) + "; please report this model");
   }
   session.keep(evaluate);
-  if (!is_proven) warn_of_missing_details(session, *report);
+  if (is_proven) {
+    const double diagonal = session.get<TriMesh>("mesh").diagonal;
+    say_what_is_proven(session, Length::parse(tolerance).resolve(diagonal));
+  } else {
+    warn_of_missing_details(session, *report);
+  }
   return *report;
 }
 

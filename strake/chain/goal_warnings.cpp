@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <string>
+#include <string_view>
+#include <variant>
 
 #include "common/core/poly_mesh.h"
 #include "common/core/tri_mesh.h"
@@ -12,6 +15,23 @@ namespace {
 
 /// Vertices of a result within a tolerance, over those of the input, of which the user is told.
 constexpr Index kExcessive = 2;
+
+/// Share of a tolerance that need not be told.
+constexpr double kNegligible = 0.01;
+
+/// A number of the report of a stage's last run; 0 where it has none.
+double number_of(const Session& session, std::string_view stage, std::string_view name) {
+  double found = 0;
+  for (const StageRecord& record : session.records()) {
+    if (record.provenance.stage != stage) continue;
+    for (const auto& [key, value] : record.report.entries()) {
+      if (key != name) continue;
+      if (const auto* real = std::get_if<double>(&value)) found = *real;
+      if (const auto* count = std::get_if<std::int64_t>(&value)) found = double(*count);
+    }
+  }
+  return found;
+}
 
 }  // namespace
 
@@ -41,6 +61,28 @@ void warn_of_excess(Session& session) {
       "warning: the result has {} vertices, the input {}: its own faces are larger than "
       "cells may be; a larger --tolerance takes fewer, on flats a larger --max-spacing",
       made, given));
+}
+
+void say_what_is_proven(Session& session, double tolerance) {
+  const double smoothed = number_of(session, "import", "noise.moved_largest_share");
+  const double moved = number_of(session, "import", "repairs.farthest_moved") + smoothed;
+  double removed = 0;
+  for (const char* kind : {"unusable_faces", "inner_faces", "folded_slivers"}) {
+    removed += number_of(session, "import", std::string("repairs.") + kind);
+  }
+  std::string what;
+  if (moved * session.get<TriMesh>("mesh").diagonal > kNegligible * tolerance) {
+    what = fmt::format("moved vertices by up to {:.2g} % of the diagonal", 100 * moved);
+  }
+  if (removed > 0) {
+    what += fmt::format("{}removed {:.0f} face{}", what.empty() ? "" : " and ", removed,
+                        removed == 1 ? "" : "s");
+  }
+  if (what.empty()) return;
+  session.say(fmt::format(
+      "warning: the tolerance is proven for the mesh after repairs{}, and these {}: the "
+      "result may be farther from the file by that",
+      smoothed > 0 ? " and --denoise" : "", what));
 }
 
 }  // namespace strake

@@ -12,4 +12,9 @@ void warn_of_count(Session& session, const LineAim& aim);
 /// coarser than the tolerance is taken for the polyhedron it is, edge by edge.
 void warn_of_excess(Session& session);
 
+/// Tells a user how far the mesh that a tolerance is proven for is from the file, where repairs or
+/// smoothing moved more than a hundredth of the tolerance, or removed faces.
+/// \param tolerance  model units
+void say_what_is_proven(Session& session, double tolerance);
+
 }  // namespace strake

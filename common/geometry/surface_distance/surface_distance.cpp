@@ -253,6 +253,31 @@ ClosestPoint SurfaceDistance::query(const Vec3& p, const ClosestPoint& best,
   return search.best;
 }
 
+double SurfaceDistance::distance_to_back(const Vec3& p, const Vec3& direction, double reach,
+                                         double least_cosine) const {
+  const Vec3 local = scale_ * (p - centre_);
+  RTCRayHit ray = {};
+  ray.ray.org_x = static_cast<float>(local.x());
+  ray.ray.org_y = static_cast<float>(local.y());
+  ray.ray.org_z = static_cast<float>(local.z());
+  ray.ray.dir_x = static_cast<float>(direction.x());
+  ray.ray.dir_y = static_cast<float>(direction.y());
+  ray.ray.dir_z = static_cast<float>(direction.z());
+  ray.ray.tnear = static_cast<float>(kFloatMargin * std::max(1.0, local.cwiseAbs().maxCoeff()));
+  ray.ray.tfar = static_cast<float>(scale_ * reach);
+  ray.ray.mask = ~0U;
+  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(hierarchy_->scene, &context, &ray);
+  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::numeric_limits<double>::infinity();
+  const auto& [a, b, c] = triangles_[ray.hit.primID];
+  const Vec3 normal = (positions_[b] - positions_[a]).cross(positions_[c] - positions_[a]);
+  if (!(normal.dot(direction) > least_cosine * normal.norm()))
+    return std::numeric_limits<double>::infinity();
+  return ray.ray.tfar / scale_;
+}
+
 Vec3 SurfaceDistance::point(const ClosestPoint& at) const {
   const auto& corners = triangles_[at.triangle];
   return at.barycentric[0] * positions_[corners[0]] + at.barycentric[1] * positions_[corners[1]] +

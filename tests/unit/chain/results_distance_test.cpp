@@ -219,5 +219,38 @@ TEST(Remesh, SaysWhereAToleranceTakesFarMoreVerticesThanTheInputHas) {
   EXPECT_EQ(said_with(5000).find("a larger --tolerance takes fewer"), std::string::npos);
 }
 
+// Borders that miss each other by less than they are sewn for are moved by that.
+TEST(Remesh, SaysForWhichMeshAToleranceIsProven) {
+  SampleOptions sample;
+  sample.faces = 2000;
+  PolyMesh mesh = make_sample(SampleKind::ellipsoid, sample);
+  RemeshOptions options;
+  options.trace.tolerance = percent(1);
+  const auto said = [&](const PolyMesh& given) {
+    Listener listener;
+    remesh({given, {}, {}, {}}, options, listener);
+    return listener.said;
+  };
+  constexpr const char* kProven = "proven for the mesh after repairs";
+  EXPECT_EQ(said(mesh).find(kProven), std::string::npos);
+  const double diagonal = 2 * Vec3(mesh.positions.front()).norm();
+  // Every other face has vertices of its own, a little off the others.
+  PolyMesh loose;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    std::vector<Index> face;
+    for (const Index v : mesh.face(f)) {
+      face.push_back(loose.vertex_count());
+      loose.positions.push_back(mesh.positions[v] +
+                                (f % 2 == 0 ? 1 : -1) * 2e-5 * diagonal * Vec3::UnitZ());
+    }
+    loose.add_face(face);
+  }
+  EXPECT_EQ(said(loose).find(kProven), std::string::npos);
+  options.trace.tolerance = percent(0.1);
+  const std::string text = said(loose);
+  EXPECT_NE(text.find(kProven), std::string::npos) << text;
+  EXPECT_NE(text.find("moved vertices by up to"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace strake

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "tests/support/mesh_support.h"
 #include "tests/unit/import/shapes.h"
@@ -143,6 +145,53 @@ TEST(Sew, BordersThatAreDividedDifferentlyAreNamed) {
   EXPECT_EQ(count(result.report, "borders.near_edges"), 8 + 5);
   EXPECT_FALSE(result.report.warnings().empty());
   EXPECT_EQ(count(imported(other).report, "borders.near_edges"), 0);
+}
+
+/// A square of 4 x 4 cells cut open from the middle of its lower side, `deep` edges long, by 5e-4.
+PolyMesh notched_square(Index deep) {
+  constexpr Index kCells = 4;
+  const PolyMesh mesh = shapes::grid(kCells, kCells, [](double, double) { return 0.0; });
+  PolyMesh cut;
+  cut.positions = mesh.positions;
+  std::vector<Index> copy(mesh.positions.size());
+  for (Index v = 0; v < mesh.vertex_count(); ++v) copy[v] = v;
+  for (Index j = 0; j < deep; ++j) {
+    const Index v = j * (kCells + 1) + kCells / 2;
+    copy[v] = cut.vertex_count();
+    cut.positions.push_back(mesh.positions[v] - Vec3(5e-4, 0, 0));
+  }
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    std::vector<Index> face(mesh.face(f).begin(), mesh.face(f).end());
+    const bool is_left = f % kCells < kCells / 2;
+    for (Index& v : face) v = is_left ? copy[v] : v;
+    cut.add_face(face);
+  }
+  return cut;
+}
+
+std::string warning_of_cracks(const ImportResult& result) {
+  for (const std::string& warning : result.report.warnings()) {
+    if (warning.find("cracks") != std::string::npos) return warning;
+  }
+  return "";
+}
+
+TEST(Sew, ANotchOfTheOutlineIsNoCrack) {
+  const ImportResult notch = imported(notched_square(1));
+  EXPECT_EQ(count(notch.report, "borders.near_edges"), 0);
+  EXPECT_EQ(warning_of_cracks(notch), "");
+  // One that goes on is.
+  EXPECT_EQ(count(imported(notched_square(2)).report, "borders.near_edges"), 4);
+}
+
+TEST(Sew, ASingleEdgeIsNamedInTheSingular) {
+  // Two triangles beside each other: the short side of one lies along the middle of the other's.
+  const PolyMesh mesh = shapes::polygons(
+      {{0, 0, 0}, {8, 0, 0}, {4, 5, 0}, {2, -1e-3, 0}, {3, -2, 0}, {3.2, -1e-3, 0}},
+      {{0, 1, 2}, {3, 4, 5}});
+  const ImportResult result = imported(mesh);
+  ASSERT_EQ(count(result.report, "borders.near_edges"), 1);
+  EXPECT_EQ(warning_of_cracks(result).substr(0, 19), "1 border edge lies ");
 }
 
 }  // namespace

@@ -1,0 +1,116 @@
+#include "stages/evaluate/own_crossings.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "stages/evaluate/evaluate.h"
+#include "tests/support/mesh_support.h"
+#include "tests/unit/evaluate/shapes.h"
+
+namespace strake {
+namespace {
+
+using evaluation::find_own_crossings;
+using evaluation::OwnCrossings;
+
+/// The cube [0, 1]^3 with another one, moved by `shift`.
+PolyMesh two_cubes(const Vec3& shift) {
+  const auto at = [](const Vec3& corner) {
+    return shapes::moved(shapes::cube(1, 0.5),
+                         [&](const Vec3& p) -> Vec3 { return p + Vec3::Constant(0.5) + corner; });
+  };
+  return support::together(at(Vec3::Zero()), at(shift));
+}
+
+TriMesh two_triangles(const std::vector<Vec3>& corners) {
+  PolyMesh mesh;
+  mesh.positions = corners;
+  mesh.add_face(std::vector<Index>{0, 1, 2});
+  mesh.add_face(std::vector<Index>{3, 4, 5});
+  return shapes::reference(mesh);
+}
+
+OwnCrossings crossings_of(const PolyMesh& mesh) {
+  return find_own_crossings(shapes::reference(mesh));
+}
+
+Report report_of(const TriMesh& reference, const PolyMesh& candidate) {
+  EvaluateOptions options;
+  options.samples = 1000;
+  SilentObserver observer;
+  return evaluate_mesh(reference, nullptr, candidate, options, observer).report;
+}
+
+bool has(const Report& report, const std::string& name) {
+  return std::ranges::any_of(report.entries(), [&](const auto& e) { return e.first == name; });
+}
+
+std::string crossing_warning(const Report& report) {
+  for (const std::string& warning : report.warnings()) {
+    if (warning.find("the input itself has") != std::string::npos) return warning;
+  }
+  return "";
+}
+
+TEST(OwnCrossings, ThePlaceIsWhereTheyCross) {
+  // The cubes' surfaces cross along edges of the box that they have in common.
+  const OwnCrossings own = crossings_of(two_cubes(Vec3(0.3, 0.4, 0.6)));
+  EXPECT_GT(own.pairs, 0);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_GE(own.place[i], Vec3(0.3, 0.4, 0.6)[i]);
+    EXPECT_LE(own.place[i], 1);
+  }
+}
+
+TEST(OwnCrossings, OneSpikeThroughAFaceIsOnePair) {
+  // A triangle that stands in the middle of another one.
+  const TriMesh mesh =
+      two_triangles({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1.5, 1, -1}, {1.2, 1.1, 1}});
+  EXPECT_EQ(find_own_crossings(mesh).pairs, 1);
+}
+
+TEST(OwnCrossings, SheetsThatOverlapInAPlaneCross) {
+  const TriMesh mesh =
+      two_triangles({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 0}, {5, 1.5, 0}, {1.2, 5, 0}});
+  EXPECT_EQ(find_own_crossings(mesh).pairs, 1);
+}
+
+TEST(OwnCrossings, WhatOnlyTouchesIsNone) {
+  // Along an edge that both have, along a part of one, in a part of a face, and not at all.
+  for (const Vec3& shift : {Vec3(1, 1, 0), Vec3(1, 1, 0.5), Vec3(1, 0.5, 0.5), Vec3(3, 0, 0)}) {
+    EXPECT_EQ(crossings_of(two_cubes(shift)).pairs, 0) << shift.transpose();
+  }
+  EXPECT_EQ(crossings_of(shapes::torus(24, 12, 2, 1)).pairs, 0);
+}
+
+TEST(OwnCrossings, AreTheSameFarAway) {
+  const PolyMesh both = two_cubes(Vec3(0.3, 0.4, 0.6));
+  const PolyMesh far = support::transformed(both, Mat3::Identity(), Vec3(4096, 0, 0));
+  TriMesh reference = shapes::reference(both);
+  reference.origin = Vec3(4096, 0, 0);
+  const std::string here = crossing_warning(report_of(shapes::reference(both), both));
+  const std::string there = crossing_warning(report_of(reference, far));
+  ASSERT_NE(here, "");
+  EXPECT_EQ(there.substr(0, there.find('(')), here.substr(0, here.find('(')));
+  EXPECT_NEAR(std::stod(there.substr(there.find('(') + 1)), 4096.65, 0.351);
+}
+
+// The search takes a few per cent of a run that made a result.
+TEST(OwnCrossings, AreLookedForOnlyWhereTheResultCrosses) {
+  const PolyMesh both = two_cubes(Vec3(0.3, 0.4, 0.6));
+  const Report parted = report_of(shapes::reference(both), two_cubes(Vec3(2, 0, 0)));
+  EXPECT_FALSE(has(parted, "shape.reference_crossing_pairs"));
+  EXPECT_EQ(crossing_warning(parted), "");
+  // A result whose faces cross and an input whose do not: nothing is to be said of the input.
+  const Report spoilt = report_of(shapes::reference(two_cubes(Vec3(2, 0, 0))), both);
+  EXPECT_TRUE(has(spoilt, "shape.reference_crossing_pairs"));
+  EXPECT_EQ(crossing_warning(spoilt), "");
+}
+
+}  // namespace
+}  // namespace strake
