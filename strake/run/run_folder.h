@@ -53,7 +53,8 @@ struct StepOutcome {
     damaged,  ///< an input turned out to be damaged; it was withdrawn from the store
   };
   Kind kind = Kind::failed;
-  std::string message;  ///< why it failed
+  std::string message;                ///< why it failed
+  std::vector<std::string> warnings;  ///< that the program had for the user, also when it was found
   int exit_code = 0;
   EntryName entry;
   std::filesystem::path file;

@@ -58,6 +58,20 @@ TEST_F(RunOptions, UntilAndFrom) {
   must_fail(kUsage, "strake run --set trace.faces=9 --set trace.vertices=9", "exclude each other");
 }
 
+/// A count that lines cannot give is told at once, and later, too: by the store.
+TEST_F(RunOptions, MissedCountsAreTold) {
+  // A torus takes a few rings of a few vertices each, and more than these.
+  const std::string missed = "warning: 20 vertices were wanted, but the mesh of these lines has ";
+  const std::string few = "--set trace.vertices=20";
+  const Outcome first = run("strake run " + few);
+  EXPECT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_NE(first.err.find(missed), std::string::npos) << first.err;
+  EXPECT_NE(must("strake status " + few).find("results with warnings: 1; "), std::string::npos);
+  EXPECT_NE(must("strake status --steps " + few).find(missed), std::string::npos);
+  EXPECT_EQ(run("strake run --set trace.tolerance=0.3%").err.find("warning"), std::string::npos);
+  EXPECT_EQ(must("strake status").find("warning"), std::string::npos);
+}
+
 TEST_F(RunOptions, SetIsForThisTimeOnly) {
   must("strake run -q");
   const std::string usual = bytes("torus.obj");
