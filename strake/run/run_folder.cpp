@@ -199,6 +199,11 @@ std::optional<StepOutcome> RunFolder::outcome(const std::string& id) const {
   });
 }
 
+bool RunFolder::is_local() const {
+  std::error_code ignored;
+  return fs::exists(ninja_file(), ignored);
+}
+
 bool RunFolder::has_ended() const {
   std::error_code ignored;
   const auto steps = fs::directory_iterator(path_ / "steps", ignored);
