@@ -110,6 +110,10 @@ void check_artifact(ArtifactKind kind, const std::string& path) {
 }
 
 void check_file(const std::string& path, std::int64_t max_sides) {
+  if (path.ends_with(".yaml") || path.ends_with(".yml")) {
+    throw UsageError("'" + path + "' is a pipeline file; 'strake status --verify --file " + path +
+                     "' checks what the store holds of it");
+  }
   if (is_artifact(path)) {
     const ArtifactKind kind = read_artifact_info(path).kind;
     check_artifact(kind, path);

@@ -138,6 +138,7 @@ TEST_F(Errors, CheckTellsStaleFromForeign) {
   must("strake-import sphere.ply -o sphere.hdf -q");
   must_fail(kPrecondition, "strake check sphere.hdf lines.hdf",
             "lines.hdf: foreign: it belongs to another mesh than 'sphere.hdf'");
+  must_fail(kUsage, "strake check pipeline.yaml", "strake status --verify --file pipeline.yaml");
   put("cut.hdf", bytes("mesh.hdf").substr(0, 5000));
   must_fail(kBadInput, "strake check cut.hdf sphere.hdf lines.hdf", "foreign");
 }
