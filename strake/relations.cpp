@@ -43,6 +43,13 @@ const GivenFile* strange_mesh(const GivenFile& file, const std::vector<GivenFile
   return strange;
 }
 
+/// Whether the other one was made from this file, as a fit of what was refined, and so came later.
+bool is_made_from(const GivenFile& other, const GivenFile& file) {
+  const auto& inputs = other.info->provenance.inputs;
+  return std::any_of(inputs.begin(), inputs.end(),
+                     [&](const auto& input) { return input.digest == file.content; });
+}
+
 /// The file given for an input, where none is the one that was read.
 const GivenFile* other_input(const GivenFile& file, const Provenance::InputRecord& input,
                              const std::vector<GivenFile>& all) {
@@ -50,7 +57,9 @@ const GivenFile* other_input(const GivenFile& file, const Provenance::InputRecor
   const GivenFile* found = nullptr;
   for (const GivenFile& other : all) {
     if (other.content == input.digest) return nullptr;
-    const bool is_for_it = other.info ? other.port == input.role && &other != &file : is_model;
+    const bool is_for_it =
+        other.info ? other.port == input.role && &other != &file && !is_made_from(other, file)
+                   : is_model;
     if (is_for_it) found = &other;
   }
   return found;

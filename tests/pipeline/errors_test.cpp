@@ -126,6 +126,9 @@ TEST_F(Errors, CheckTellsRotFromTruncation) {
 TEST_F(Errors, CheckTellsStaleFromForeign) {
   run_chain("torus.ply", "");
   must("strake check torus.ply mesh.hdf tensor.hdf field.hdf lines.hdf");
+  // A chain fits what was refined from an earlier fit, which it does not keep.
+  must("strake remesh torus.ply -o q.obj --vertices 300 --keep kept -q");
+  must("strake check torus.ply kept/mesh.hdf kept/fitted.hdf kept/refined.hdf kept/quads.hdf");
   must("strake check lines.hdf mesh.hdf");  // what is not given is not missed
   must("strake-smooth mesh.hdf tensor.hdf -o other.hdf -q --iterations 9");
   must_fail(
