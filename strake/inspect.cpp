@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "common/artifact/artifact.h"
 #include "common/artifact/digest.h"
@@ -11,6 +12,7 @@
 #include "common/geometry/poly_topology/poly_topology.h"
 #include "common/geometry/topology/topology.h"
 #include "strake/commands.h"
+#include "strake/relations.h"
 
 namespace strake {
 namespace {
@@ -107,13 +109,18 @@ void check_artifact(ArtifactKind kind, const std::string& path) {
   }
 }
 
-int check_file(const std::string& path, std::int64_t max_sides) {
+void check_file(const std::string& path, std::int64_t max_sides) {
+  if (path.ends_with(".yaml") || path.ends_with(".yml")) {
+    throw UsageError("'" + path + "' is a pipeline file; 'strake status --verify --file " + path +
+                     "' checks what the store holds of it");
+  }
   if (is_artifact(path)) {
     const ArtifactKind kind = read_artifact_info(path).kind;
     check_artifact(kind, path);
+    check_picture(path);
     if (kind != ArtifactKind::quads) {
       fmt::print("{}: sound {} artifact\n", path, kind_name(kind));
-      return 0;
+      return;
     }
   }
   const Value value = load_value(PortKind::polygons, path);
@@ -126,8 +133,31 @@ int check_file(const std::string& path, std::int64_t max_sides) {
   if (max_sides > 0 && topology.most_sides > max_sides) {
     faults += fmt::format(" A face has {} sides, {} are allowed.", topology.most_sides, max_sides);
   }
-  if (faults.empty()) return 0;
-  throw AlgorithmError(path + " is not sound: " + faults);
+  if (!faults.empty()) throw AlgorithmError(path + " is not sound: " + faults);
+}
+
+/// Checks all files, so that one that is damaged does not hide others, and then whether those that
+/// are sound belong together.
+int check_files(const std::vector<std::string>& paths, std::int64_t max_sides) {
+  std::vector<std::string> sound;
+  std::string complaints;
+  ExitCode code = ExitCode::precondition;
+  for (const std::string& path : paths) {
+    try {
+      check_file(path, max_sides);
+      sound.push_back(path);
+    } catch (const Interrupted&) {
+      throw;
+    } catch (const Error& error) {
+      if (complaints.empty()) code = error.code();
+      complaints += (complaints.empty() ? "" : "\n") + std::string(error.what());
+    }
+  }
+  for (const std::string& broken : broken_relations(sound)) {
+    complaints += (complaints.empty() ? "" : "\n") + broken;
+  }
+  if (!complaints.empty()) throw Error(code, complaints);
+  return 0;
 }
 
 }  // namespace
@@ -141,20 +171,21 @@ void add_info_command(CLI::App& app, Action& chosen) {
 }
 
 void add_check_command(CLI::App& app, Action& chosen) {
-  CLI::App* command = app.add_subcommand(
-      "check", "Check that an artifact is undamaged, or that a mesh is an oriented manifold.");
-  command->footer("Examples:\n  strake check quads.obj\n  strake check work/field.hdf");
-  const auto path = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand("check",
+                                         "Check that artifacts are undamaged and made from each "
+                                         "other, and meshes oriented manifolds.");
+  command->footer("Examples:\n  strake check quads.obj\n  strake check scan.ply work/*.hdf");
+  const auto paths = std::make_shared<std::vector<std::string>>();
   const auto max_sides = std::make_shared<std::int64_t>(0);
-  command->add_option("file", *path, "mesh file or artifact")->type_name("FILE")->required();
+  command->add_option("files", *paths, "mesh files and artifacts")->type_name("FILE")->required();
   add_options(*command, {{.name = "max-sides",
                           .target = max_sides.get(),
                           .unit = "",
                           .help = "Largest number of sides a face may have; 0 allows any.",
                           .min = 0,
                           .max = 1e6}});
-  command->callback([path, max_sides, &chosen] {
-    chosen = [path, max_sides] { return check_file(*path, *max_sides); };
+  command->callback([paths, max_sides, &chosen] {
+    chosen = [paths, max_sides] { return check_files(*paths, *max_sides); };
   });
 }
 

@@ -89,6 +89,10 @@ struct ArtifactInfo {
 /// \throw InputError where the file is no artifact, damaged, or newer than this program
 ArtifactInfo read_artifact_info(const std::filesystem::path& path);
 
+/// Reads what only viewers read of an artifact, for its checksums.
+/// \throw InputError naming file and dataset where it is damaged
+void check_picture(const std::filesystem::path& path);
+
 /// Names what a file says: of an artifact the digest of its data, however it was made; of another
 /// file `digest_file`. Stages note it of their inputs, so that what comes out the same in another
 /// way changes nothing further on.

@@ -138,6 +138,13 @@ ArtifactInfo read_artifact_info(const std::filesystem::path& path) {
   return info;
 }
 
+void check_picture(const std::filesystem::path& path) {
+  const hdf5::Reader file(path);
+  for (const char* group : {"/VTKHDF", "/VTKHDF/PointData", "/VTKHDF/CellData"}) {
+    file.read_all(group);
+  }
+}
+
 std::string content_digest(const std::filesystem::path& path) {
   return is_artifact(path) ? content_of(hdf5::Reader(path), path) : digest_file(path);
 }

@@ -273,6 +273,11 @@ Reader::Reader(const std::filesystem::path& path) : File(path) {
   }
   bytes_ = std::filesystem::file_size(path, error);
   id_ = H5Fopen(shown_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (id_ < 0 && innermost_reason().starts_with("truncated file")) {
+    throw InputError(shown_.string() + ": is cut off after " + std::to_string(bytes_) +
+                     " bytes, as where copying it was interrupted or the disk was full; copy it "
+                     "again, or make it again");
+  }
   if (id_ < 0)
     fail("", "is not an artifact of strake, or is damaged; strake-import makes one of a mesh file");
 }
@@ -380,6 +385,16 @@ void Reader::read(const std::string& name, void* data, Scalar scalar, std::int64
           0 ||
       H5Dread(dataset.id(), memory_type(scalar), here.id(), there.id(), H5P_DEFAULT, data) < 0) {
     fail(name, "cannot be read; the file is damaged, make it again");
+  }
+}
+
+void Reader::read_all(const std::string& group) const {
+  for (const DatasetInfo& dataset : list(group)) {
+    const std::string name = group + "/" + dataset.name;
+    const Shape shape = checked_shape(name, dataset.scalar, dataset.shape.is_table);
+    std::vector<char> data(static_cast<std::size_t>(shape.rows * shape.columns) *
+                           static_cast<std::size_t>(size_of(dataset.scalar)));
+    read(name, data.data(), dataset.scalar, 0, shape);
   }
 }
 

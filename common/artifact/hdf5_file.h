@@ -169,6 +169,9 @@ class Reader : public File {
     return rows<Row>(name, 0, row_count<Row>(name, layout), layout);
   }
 
+  /// Reads every dataset of a group for nothing but its checksums. \throw InputError
+  void read_all(const std::string& group) const;
+
   /// Throws an InputError that names this file and the dataset.
   [[noreturn]] void refuse(const std::string& name, const std::string& what) const;
 

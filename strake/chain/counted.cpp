@@ -31,6 +31,4 @@ Index corner_count(const Session& session) {
   return static_cast<Index>(std::ranges::count(session.get<TriMesh>("mesh").is_corner, 1));
 }
 
-const char* name_of(Counted counted) { return counted == Counted::vertices ? "vertices" : "faces"; }
-
 }  // namespace strake

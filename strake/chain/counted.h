@@ -2,12 +2,10 @@
 
 #include <cstdint>
 
+#include "common/core/wanted_count.h"
 #include "strake/chain/session.h"
 
 namespace strake {
-
-/// What is counted.
-enum class Counted { vertices, faces };
 
 /// The port of a result for a count: of what was fitted, or of that without faces that crossed.
 const char* result_port(const Session& session);
@@ -24,8 +22,5 @@ bool is_input_spent(const Session& session);
 
 /// Corners of feature and boundary lines of the input.
 Index corner_count(const Session& session);
-
-/// "vertices" or "faces".
-const char* name_of(Counted counted);
 
 }  // namespace strake

@@ -37,20 +37,14 @@ double number_of(const Session& session, std::string_view stage, std::string_vie
 
 void warn_of_count(Session& session, const LineAim& aim) {
   const std::int64_t reached = count_of(session, result_port(session), aim.counted);
-  if (aim.miss(reached) <= kCountTolerance) return;
-  const Index corners = corner_count(session);
-  const bool is_by_corners = aim.counted == Counted::vertices && corners > aim.wanted;
   std::string why = "the shape, --max-spacing or the mesh's own resolution do not allow it";
-  if (is_by_corners) {
-    why = fmt::format(
-        "feature and boundary lines have {} corners; a larger --feature-angle makes fewer features",
-        corners);
-  } else if (reached < aim.wanted && is_input_spent(session)) {
+  if (reached < aim.wanted && is_input_spent(session)) {
     why = fmt::format("decimation gives no more vertices than the {} of the input",
                       session.get<TriMesh>("mesh").vertex_count());
   }
-  session.say(fmt::format("warning: {} {} were wanted, but the nearest result has {}: {}",
-                          aim.wanted, name_of(aim.counted), reached, why));
+  const std::string missed = missed_count({aim.counted, aim.wanted, reached, corner_count(session)},
+                                          "the nearest result has", why);
+  if (!missed.empty()) session.say("warning: " + missed);
 }
 
 void warn_of_excess(Session& session) {

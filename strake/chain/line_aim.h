@@ -8,9 +8,6 @@
 
 namespace strake {
 
-/// Error of a wanted count above which the user is told.
-inline constexpr double kCountTolerance = 0.05;
-
 /// How many vertices or faces lines are to give.
 struct LineAim {
   Counted counted;
@@ -19,9 +16,7 @@ struct LineAim {
   double left;          ///< share of what is wanted that lines leave for dividing cells
 
   /// Share of the wanted count that another one is off by.
-  [[nodiscard]] double miss(std::int64_t reached) const {
-    return std::abs(static_cast<double>(reached - wanted)) / static_cast<double>(wanted);
-  }
+  [[nodiscard]] double miss(std::int64_t reached) const { return count_miss(wanted, reached); }
   /// How far its ratio to the wanted one is from one: half as many are as far off as twice as many.
   [[nodiscard]] double ratio_miss(std::int64_t reached) const {
     return std::abs(std::log(static_cast<double>(std::max<std::int64_t>(reached, 1)) /

@@ -255,9 +255,13 @@ class Reader {
   }
 
   void add_model(const std::string& name, const Place& place, const fs::path& file) {
-    check_name(name, place);
+    const std::string remedy = name != file.stem()
+                                   ? ""
+                                   : fmt::format("; name it yourself: 'models: {{ NAME: \"{}\" }}'",
+                                                 file.lexically_proximate(folder_).string());
+    check_name(name, place, remedy);
     for (const ModelEntry& other : description_.models) {
-      if (other.name == name) place.fail(fmt::format("there are two models '{}'", name));
+      if (other.name == name) place.fail(fmt::format("there are two models '{}'{}", name, remedy));
     }
     ModelEntry model{name, place, file, {}, {}, {}};
     for (const Variant& variant : description_.variants) model.variants.push_back(variant.name);

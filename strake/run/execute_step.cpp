@@ -38,6 +38,7 @@ using Json = nlohmann::json;
 
 constexpr std::chrono::milliseconds kLockPause{100};
 constexpr const char* kTemporaryExtension = ".tmp";
+constexpr std::string_view kWarning = "warning: ";
 
 /// An input of a step has other bytes than the run was planned with.
 class DamagedInput : public Error {
@@ -167,7 +168,9 @@ class StepRun {
       last_line_ = event.value("label", "") + ": error: " + event.value("message", line);
       log(last_line_);
     } else {
-      log(event.value("text", line));
+      const std::string text = event.value("text", line);
+      if (text.starts_with(kWarning)) warnings_.push_back(text.substr(kWarning.size()));
+      log(text);
     }
   }
 
@@ -197,6 +200,7 @@ class StepRun {
       outcome.file = stored->file;
       outcome.digest = stored->digest;
       outcome.content = stored->content;
+      outcome.warnings = stored->warnings;
       log("found in the store: " + stored->file.string());
       return outcome;
     }
@@ -217,7 +221,7 @@ class StepRun {
     entry.file = store_.folder(name) / order_.file_name;
     entry.provenance = provenance;
     std::vector<std::string> words = stage_command(order_, entry.file);
-    words.push_back("--log-json");
+    words.insert(words.end(), {"--log-json", "--verbose"});  // the report belongs to the log
     log(fmt::format("{}", fmt::join(words, " ")));
     ChildProcess child(words);
     const ChildOutcome ended = child.wait([&](const std::string& line) { take_line(line); }, [] {});
@@ -230,6 +234,7 @@ class StepRun {
     outcome.seconds = ended.seconds;
     outcome.peak_bytes = ended.peak_bytes;
     outcome.exit_code = ended.exit_code;
+    outcome.warnings = entry.warnings = warnings_;
     if (ended.exit_code != 0) {
       const bool spoke = !last_line_.empty() && ended.exit_code < kCannotStart;
       outcome.message = spoke ? last_line_ : fmt::format("'{}' {}", words.front(), ended.text());
@@ -263,7 +268,8 @@ class StepRun {
   std::ofstream log_;
   std::map<fs::path, std::optional<FileStamp>> stamps_;  ///< of the inputs, when they were checked
   std::string phase_;
-  std::string last_line_;  ///< of errors and plain text, as crashes leave it
+  std::vector<std::string> warnings_;  ///< of the program
+  std::string last_line_;              ///< of errors and plain text, as crashes leave it
 };
 
 }  // namespace

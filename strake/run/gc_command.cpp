@@ -14,19 +14,14 @@
 #include "common/artifact/store/store.h"
 #include "common/core/error.h"
 #include "strake/commands.h"
+#include "strake/run/old_runs.h"
 #include "strake/run/pipeline_options.h"
-#include "strake/run/run_folder.h"
 #include "strake/run/survey.h"
 
 namespace strake {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Records of runs that are younger are kept; those with steps that have not ended, as jobs of a
-/// cluster may wait for long.
-constexpr std::chrono::hours kKeepEndedRuns{7 * 24};
-constexpr std::chrono::hours kKeepRuns{90 * 24};
 
 struct GcCommand {
   PipelineOptions pipeline;
@@ -88,21 +83,6 @@ void GcCommand::remove(const Store& store, const Store::Listed& listed, const ch
   freed += static_cast<double>(listed.bytes);
 }
 
-/// Removes records of runs that ended long ago.
-void remove_old_runs(const Store& store) {
-  std::error_code ignored;
-  const auto now = fs::file_time_type::clock::now();
-  for (const auto& folder : fs::directory_iterator(store.side_folder("runs"), ignored)) {
-    const RunFolder run(folder.path());
-    std::error_code error;
-    fs::file_time_type written = fs::last_write_time(run.path() / "outcomes", error);
-    if (error) written = fs::last_write_time(run.path(), error);  // it is being made just now
-    const auto kept = run.has_ended() ? kKeepEndedRuns : kKeepRuns;
-    if (!error && written < now - kept) fs::remove_all(run.path(), ignored);
-  }
-  store.empty_trash();
-}
-
 int GcCommand::run() const {
   if (older_than.empty() && max_size.empty() && !unreachable) {
     throw UsageError("say what may go: --unreachable, --older-than 30d, --max-size 10GB");
@@ -141,7 +121,10 @@ int GcCommand::run() const {
       ++kept;
     }
   }
-  if (!dry_run) remove_old_runs(store);
+  if (!dry_run) {
+    remove_old_runs(store);
+    store.empty_trash();
+  }
   fmt::print("{} {}, {} results left\n", dry_run ? "would free" : "freed", bytes_text(freed), kept);
   return 0;
 }

@@ -46,7 +46,7 @@ std::string build_file(const RunFolder& folder, const std::vector<StepOrder>& or
 
 std::string run_with_ninja(const RunFolder& folder, const std::vector<StepOrder>& orders,
                            std::int64_t jobs, const std::function<void()>& idle) {
-  write_text(folder.path() / "build.ninja", build_file(folder, orders), Flush::no);
+  write_text(folder.ninja_file(), build_file(folder, orders), Flush::no);
   std::ofstream log(folder.path() / "logs" / "ninja.txt");
   const char* keep_going = folder.settings().keep_going ? "0" : "1";
   // The shell becomes Ninja and keeps its number, by which steps know whether it still lives.

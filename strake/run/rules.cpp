@@ -298,7 +298,7 @@ void check_together(const std::vector<Setting>& settings) {
   }
 }
 
-void check_name(std::string_view name, const Place& place) {
+void check_name(std::string_view name, const Place& place, std::string_view remedy) {
   const auto is_allowed = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
            c == '_' || c == '.' || c == '+';
@@ -308,8 +308,8 @@ void check_name(std::string_view name, const Place& place) {
       !std::all_of(name.begin(), name.end(), is_allowed)) {
     place.fail(
         fmt::format("'{}' cannot be a name: letters, digits, '-', '_', '+' and '.' can, "
-                    "at most {} of them, beginning with none of '.' and '-'",
-                    name, kLongest));
+                    "at most {} of them, beginning with none of '.' and '-'{}",
+                    name, kLongest, remedy));
   }
 }
 

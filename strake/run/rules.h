@@ -41,7 +41,8 @@ bool excludes(const Setting& one, const Setting& other);
 void check_together(const std::vector<Setting>& settings);
 
 /// Refuses names that could not be part of a file name. \throw UsageError
-void check_name(std::string_view name, const Place& place);
+/// \param remedy  what to do about it, beginning with "; "
+void check_name(std::string_view name, const Place& place, std::string_view remedy = "");
 
 /// A value as a part of a file name: "0.1%" becomes "0.1".
 std::string path_part(std::string_view text);

@@ -14,9 +14,11 @@
 #include <thread>
 #include <vector>
 
+#include "common/artifact/store/entry_lock.h"
 #include "common/core/error.h"
 #include "strake/commands.h"
 #include "strake/run/ninja_engine.h"
+#include "strake/run/old_runs.h"
 #include "strake/run/run_display.h"
 #include "strake/run/slurm_engine.h"
 #include "strake/run/slurm_options.h"
@@ -165,7 +167,10 @@ int RunCommand::run_locally(const Description& description, const Plan& plan,
     }
     return stale;
   }();
-  const RunFolder folder = RunFolder::create(Store(plan.store), settings(description));
+  const Store store(plan.store);
+  const RunFolder folder = RunFolder::create(store, settings(description));
+  const EntryLock going_on(folder.path());
+  remove_surplus_runs(store);
   for (const StepOrder& order : orders) folder.write_order(order);
   RunDisplay display(folder, orders, quiet);
   const std::string complaint =
@@ -184,6 +189,8 @@ int RunCommand::run_on_cluster(const Description& description, const Plan& plan,
   const Store store(plan.store);
   const std::vector<StepOrder> orders = stale_orders(plan, states, 1);
   const RunFolder folder = RunFolder::create(store, settings(description));
+  const EntryLock going_on(folder.path());  // with --wait
+  remove_surplus_runs(store);
   for (const StepOrder& order : orders) folder.write_order(order);
   const fs::path scripts =
       script_folder.empty() ? folder.path() / "slurm" : fs::absolute(script_folder);

@@ -68,6 +68,9 @@ void RunDisplay::show_ended() {
         stderr, "[{}/{}] {}: {}{}\n", ended_.size(), orders_.size(), order.title,
         outcome_text(*outcome),
         outcome->kind == StepOutcome::Kind::ran ? ", " + seconds_text(outcome->seconds) : "");
+    for (const std::string& warning : outcome->warnings) {
+      fmt::print(stderr, "    warning: {}\n", warning);
+    }
     if (!outcome->message.empty()) {
       fmt::print(stderr, "    {}\n    log: {}\n", outcome->message,
                  folder_.log_file(order.id).string());

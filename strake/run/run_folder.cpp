@@ -166,6 +166,7 @@ StepOrder RunFolder::order(const std::string& id) const {
 void RunFolder::write_outcome(const std::string& id, const StepOutcome& outcome) const {
   const Json json = {{"outcome", kOutcomeNames[static_cast<std::size_t>(outcome.kind)]},
                      {"message", outcome.message},
+                     {"warnings", outcome.warnings},
                      {"exit_code", outcome.exit_code},
                      {"entry", to_json(outcome.entry)},
                      {"file", outcome.file.string()},
@@ -186,6 +187,7 @@ std::optional<StepOutcome> RunFolder::outcome(const std::string& id) const {
     const auto* kind = std::find(kOutcomeNames.begin(), kOutcomeNames.end(), name);
     outcome.kind = static_cast<StepOutcome::Kind>(kind - kOutcomeNames.begin());
     outcome.message = json.at("message");
+    outcome.warnings = json.at("warnings").get<std::vector<std::string>>();
     outcome.exit_code = json.at("exit_code");
     outcome.entry = entry_from(json.at("entry"));
     outcome.file = json.at("file").get<std::string>();
@@ -195,6 +197,11 @@ std::optional<StepOutcome> RunFolder::outcome(const std::string& id) const {
     outcome.peak_bytes = json.at("peak_bytes");
     return outcome;
   });
+}
+
+bool RunFolder::is_local() const {
+  std::error_code ignored;
+  return fs::exists(ninja_file(), ignored);
 }
 
 bool RunFolder::has_ended() const {

@@ -53,7 +53,8 @@ struct StepOutcome {
     damaged,  ///< an input turned out to be damaged; it was withdrawn from the store
   };
   Kind kind = Kind::failed;
-  std::string message;  ///< why it failed
+  std::string message;                ///< why it failed
+  std::vector<std::string> warnings;  ///< that the program had for the user, also when it was found
   int exit_code = 0;
   EntryName entry;
   std::filesystem::path file;
@@ -90,9 +91,12 @@ class RunFolder {
   /// Nothing where the step has not ended.
   [[nodiscard]] std::optional<StepOutcome> outcome(const std::string& id) const;
 
+  /// Whether Ninja carries it out: by processes that end with the one that holds the lock.
+  [[nodiscard]] bool is_local() const;
   /// Whether every step that was ordered has.
   [[nodiscard]] bool has_ended() const;
 
+  [[nodiscard]] std::filesystem::path ninja_file() const { return path_ / "build.ninja"; }
   [[nodiscard]] std::filesystem::path outcome_file(const std::string& id) const;
   [[nodiscard]] std::filesystem::path log_file(const std::string& id) const;
   /// Holds what a running step is at: one line for people.

@@ -37,6 +37,10 @@ void print_steps(const Plan& plan, const std::vector<StepState>& states) {
     if (state.status == StepState::Status::unneeded) continue;
     fmt::print("{:8} {}: {}\n", status_word(state), plan.steps[s].title,
                state.entry ? state.entry->file.string() : state.reason);
+    if (!state.entry) continue;
+    for (const std::string& warning : state.entry->warnings) {
+      fmt::print("         warning: {}\n", warning);
+    }
   }
 }
 
@@ -73,6 +77,15 @@ void print_targets(const Plan& plan, const std::vector<StepState>& states) {
   }
 }
 
+/// Says how many results have warnings, which are a line each for whoever wants to read them.
+void print_warned(const std::vector<StepState>& states) {
+  const auto warned = std::count_if(states.begin(), states.end(), [](const StepState& state) {
+    return state.entry && !state.entry->warnings.empty();
+  });
+  if (warned == 0) return;
+  fmt::print("results with warnings: {}; 'strake status --steps' shows them\n", warned);
+}
+
 /// Names the files that a run would write. \param all  instead of the first and how many more
 void print_outputs(const std::vector<std::string>& files, bool all) {
   if (files.empty()) return;
@@ -97,6 +110,7 @@ int StatusCommand::run() const {
     print_steps(plan, states);
   } else {
     print_targets(plan, states);
+    print_warned(states);
   }
   print_outputs(files_to_write(plan, states, digests), steps);
   double bytes = 0;

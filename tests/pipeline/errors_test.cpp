@@ -102,6 +102,50 @@ TEST_F(Errors, DamagedFiles) {
   must_fail(kBadInput, "strake-tensor flipped.hdf -o t.hdf", "flipped.hdf");
 }
 
+/// What a viewer reads is checked, too, though no stage reads it: one flipped bit anywhere.
+TEST_F(Errors, CheckTellsRotFromTruncation) {
+  run_chain("torus.ply", "");
+  const std::string whole = bytes("field.hdf");
+  put("cut.hdf", whole.substr(0, whole.size() / 2));
+  must_fail(kBadInput, "strake check cut.hdf", "is cut off after");
+  std::size_t noticed = 0;
+  constexpr std::size_t kTried = 40;
+  for (std::size_t n = 0; n < kTried; ++n) {
+    std::string rotten = whole;
+    // Behind the first bytes, without which it is no artifact; gaps between datasets hold nothing.
+    char& byte = rotten[1000 + n * (whole.size() - 1000) / kTried];
+    byte = static_cast<char>(byte ^ 4);
+    put("rotten.hdf", rotten);
+    noticed += run("strake check rotten.hdf").exit_code == kBadInput ? 1 : 0;
+  }
+  EXPECT_GE(noticed, kTried * 9 / 10);
+  put("rotten.hdf", bytes("field.hdf"));
+  must("strake check rotten.hdf");
+}
+
+TEST_F(Errors, CheckTellsStaleFromForeign) {
+  run_chain("torus.ply", "");
+  must("strake check torus.ply mesh.hdf tensor.hdf field.hdf lines.hdf");
+  // A chain fits what was refined from an earlier fit, which it does not keep.
+  must("strake remesh torus.ply -o q.obj --vertices 300 --keep kept -q");
+  must("strake check torus.ply kept/mesh.hdf kept/fitted.hdf kept/refined.hdf kept/quads.hdf");
+  must("strake check lines.hdf mesh.hdf");  // what is not given is not missed
+  must("strake-smooth mesh.hdf tensor.hdf -o other.hdf -q --iterations 9");
+  must_fail(
+      kPrecondition, "strake check mesh.hdf other.hdf lines.hdf",
+      "lines.hdf: stale: made from another 'field' than 'other.hdf' is now; run strake-trace");
+  must("strake check mesh.hdf other.hdf field.hdf lines.hdf");
+  must("strake sample sphere -o sphere.ply --faces 500");
+  must_fail(kPrecondition, "strake check sphere.ply mesh.hdf",
+            "mesh.hdf: stale: made from another 'input' than 'sphere.ply'");
+  must("strake-import sphere.ply -o sphere.hdf -q");
+  must_fail(kPrecondition, "strake check sphere.hdf lines.hdf",
+            "lines.hdf: foreign: it belongs to another mesh than 'sphere.hdf'");
+  must_fail(kUsage, "strake check pipeline.yaml", "strake status --verify --file pipeline.yaml");
+  put("cut.hdf", bytes("mesh.hdf").substr(0, 5000));
+  must_fail(kBadInput, "strake check cut.hdf sphere.hdf lines.hdf", "foreign");
+}
+
 /// Every index of the file is in range, and yet one vertex has two fans of faces.
 TEST_F(Errors, MeshesThatBreakWhatTheyPromise) {
   TriMesh bow;

@@ -58,6 +58,20 @@ TEST_F(RunOptions, UntilAndFrom) {
   must_fail(kUsage, "strake run --set trace.faces=9 --set trace.vertices=9", "exclude each other");
 }
 
+/// A count that lines cannot give is told at once, and later, too: by the store.
+TEST_F(RunOptions, MissedCountsAreTold) {
+  // A torus takes a few rings of a few vertices each, and more than these.
+  const std::string missed = "warning: 20 vertices were wanted, but the mesh of these lines has ";
+  const std::string few = "--set trace.vertices=20";
+  const Outcome first = run("strake run " + few);
+  EXPECT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_NE(first.err.find(missed), std::string::npos) << first.err;
+  EXPECT_NE(must("strake status " + few).find("results with warnings: 1; "), std::string::npos);
+  EXPECT_NE(must("strake status --steps " + few).find(missed), std::string::npos);
+  EXPECT_EQ(run("strake run --set trace.tolerance=0.3%").err.find("warning"), std::string::npos);
+  EXPECT_EQ(must("strake status").find("warning"), std::string::npos);
+}
+
 TEST_F(RunOptions, SetIsForThisTimeOnly) {
   must("strake run -q");
   const std::string usual = bytes("torus.obj");
@@ -326,6 +340,62 @@ TEST_F(Collection, RunsThatHaveNotEndedStayLonger) {
   age(91);
   must("strake gc --unreachable");
   EXPECT_FALSE(fs::exists(waiting));
+}
+
+/// More records of runs than are kept, all older than those of today.
+class ManyRuns : public PipelineTest {
+ protected:
+  static constexpr int kMade = 60;
+  static constexpr int kKept = 50;
+
+  ManyRuns() : runs_(file("store") / ".runs") {
+    pipeline("models: {torus: {sample: {kind: torus, faces: 2000}}}\n");
+    must("strake run -q --until import");
+    const fs::path first = fs::directory_iterator(runs_)->path();
+    for (int n = 0; n < kMade; ++n) {
+      const fs::path copy = runs_ / ("earlier-" + std::to_string(n));
+      fs::copy(first, copy, fs::copy_options::recursive);
+      age(copy, 2 + n);
+    }
+  }
+  static void age(const fs::path& run, int hours) {
+    fs::last_write_time(run / "outcomes",
+                        fs::file_time_type::clock::now() - std::chrono::hours(hours));
+  }
+  [[nodiscard]] std::ptrdiff_t left() const {
+    return std::distance(fs::directory_iterator(runs_), {});
+  }
+  [[nodiscard]] fs::path earlier(int n) const { return runs_ / ("earlier-" + std::to_string(n)); }
+
+  fs::path runs_;
+};
+
+TEST_F(ManyRuns, TheNewestStay) {
+  must("strake run");  // makes the rest of the results: a record more
+  EXPECT_EQ(left(), kKept);
+  EXPECT_TRUE(fs::exists(earlier(kKept - 3)));
+  EXPECT_FALSE(fs::exists(earlier(kKept - 2)));
+  must("strake run --dry-run");
+  must("strake run");
+  EXPECT_EQ(left(), kKept);
+}
+
+TEST_F(ManyRuns, WhatMayGoOnStays) {
+  const auto lose_an_outcome = [&](int n) {
+    fs::remove(fs::directory_iterator(earlier(n) / "outcomes")->path());
+    age(earlier(n), 2 + n);
+  };
+  const EntryLock going_on(earlier(59));
+  lose_an_outcome(58);
+  fs::remove(earlier(58) / "build.ninja");  // as of a cluster, whose jobs may wait
+  lose_an_outcome(57);                      // as of a run that was killed
+  age(earlier(56), 0);                      // one of the newest, then
+  must("strake run");
+  EXPECT_TRUE(fs::exists(earlier(59)));
+  EXPECT_TRUE(fs::exists(earlier(58)));
+  EXPECT_FALSE(fs::exists(earlier(57)));
+  EXPECT_TRUE(fs::exists(earlier(56)));
+  EXPECT_EQ(left(), kKept + 2);
 }
 
 TEST_F(Collection, NothingGoesFromAFolderThatIsNoStore) {

@@ -45,6 +45,7 @@ std::string manifest_text(const Entry& entry) {
       {"seconds", entry.seconds},
       {"peak_bytes", entry.peak_bytes},
   };
+  if (!entry.warnings.empty()) json["warnings"] = entry.warnings;
   json["seal"] = seal_of(json);
   return json.dump(1) + "\n";
 }
@@ -62,6 +63,7 @@ Entry parse_manifest(const fs::path& folder, std::istream& stream) {
   entry.provenance = Provenance::from_json(json.at("provenance").dump());
   entry.seconds = json.at("seconds");
   entry.peak_bytes = json.at("peak_bytes");
+  entry.warnings = json.value("warnings", std::vector<std::string>());
   return entry;
 }
 

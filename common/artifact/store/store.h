@@ -33,7 +33,8 @@ struct Entry {
   std::string content;  ///< `content_digest` of the artifact: what depends on it goes by that
   FileStamp stamp;      ///< of the artifact, when its digest was last checked
   double seconds = 0;   ///< that making it took
-  std::int64_t peak_bytes = 0;  ///< of memory
+  std::int64_t peak_bytes = 0;        ///< of memory
+  std::vector<std::string> warnings;  ///< that its maker had for the user
 };
 
 /// A folder of results that people and machines share. Each entry is a folder of its own with the

@@ -56,7 +56,7 @@ const Fault kFaults[] = {
     {"FolderAsFile", "version: 1\nmodels: [.]\n", "2:10: ", "there is no file"},
     {"PatternWithoutMatch", "version: 1\nmodels: ['*.stl']\n", "2:10: ", "no file matches"},
     {"PatternWithAName", "version: 1\nmodels: {x: '*.obj'}\n", "2:13: ", "no single name"},
-    {"SameModelTwice", "version: 1\nmodels: [a.obj, a.obj]\n", "2:17: ", "two models 'a'"},
+    {"SameModelTwice", "version: 1\nmodels: [a.obj, a.obj]\n", "2:17: ", "two models 'a'; name"},
     {"DuplicateModel", "version: 1\nmodels:\n  x: a.obj\n  x: b.ply\n", "4:3: ", "line 3 already"},
     {"SlashInName", "version: 1\nmodels: {x/y: a.obj}\n", "2:15: ", "cannot be a name"},
     {"DotsAsName", "version: 1\nmodels: {..: a.obj}\n", "2:14: ", "cannot be a name"},
@@ -285,6 +285,15 @@ TEST_F(GoodPipeline, PatternsMatchFilesOnly) {
     names += model.name + " ";
   }
   EXPECT_EQ(names, "a d ");
+}
+
+TEST_F(GoodPipeline, AFileWhoseStemIsNoNameIsToBeNamed) {
+  put("Müller 1.obj", "v 0 0 0\n");
+  const std::string said = complaint("version: 1\nmodels: ['M*.obj']\n");
+  EXPECT_NE(said.find("'models: { NAME: \"Müller 1.obj\" }'"), std::string::npos) << said;
+  const Description named = describe("version: 1\nmodels: {mueller: 'Müller 1.obj'}\n");
+  EXPECT_EQ(named.models[0].file, folder_ / "Müller 1.obj");
+  EXPECT_EQ(complaint("version: 1\nmodels: {my part: a.obj}\n").find("NAME"), std::string::npos);
 }
 
 TEST_F(GoodPipeline, MarksInTheFoldersNameAreNoPattern) {
