@@ -8,6 +8,9 @@
 
 namespace strake {
 
+/// Share of a tolerance that the course may be off the boundary; the rest is for cells.
+inline constexpr double kCourseOfTolerance = 0.5;
+
 /// The course that the boundary of a surface has at the scale of cells.
 ///
 /// A surface cut along its triangles has a saw for a boundary: it turns to and fro at nearly every

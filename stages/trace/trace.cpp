@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "common/core/error.h"
+#include "common/geometry/border_course.h"
 #include "common/geometry/density.h"
 #include "common/geometry/mesh_measures.h"
 #include "common/geometry/topology/topology.h"
@@ -25,7 +26,6 @@ constexpr Length kDefaultTolerance = percent(0.1);
 constexpr double kShareOfFamily = 0.5;
 constexpr Length kDefaultMaxSpacing = percent(5);  ///< [MK04] section 3.2, at the default tolerance
 constexpr double kStopFractionOfDensity = 0.6;
-constexpr double kToothOfTolerance = 0.5;  ///< the rest is for cells
 constexpr double kLargestCell = 3;         ///< in mean cell lengths, where a count is wanted
 constexpr double kSmallestSpacing = 1e-4;  ///< share of the diagonal
 constexpr Index kSeedsPerComponent = 8;
@@ -140,7 +140,7 @@ class WantedSpacing {
 /// Height of teeth of ragged boundaries over the middle that lines need not follow, model units.
 double largest_teeth(const TriMesh& mesh, const TraceOptions& options) {
   if (!options.tolerance) return std::numeric_limits<double>::infinity();
-  return kToothOfTolerance * options.tolerance->resolve(mesh.diagonal);
+  return kCourseOfTolerance * options.tolerance->resolve(mesh.diagonal);
 }
 
 /// Seeds on guide lines, from the middle of each: lines along them come first. All places are

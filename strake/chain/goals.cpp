@@ -12,6 +12,7 @@
 
 #include "common/core/error.h"
 #include "common/core/tolerance_error.h"
+#include "common/geometry/border_course.h"
 #include "common/geometry/face_crossings/crossing_places.h"
 #include "stages/mesh/mesh.h"
 #include "strake/chain/attempt.h"
@@ -43,8 +44,6 @@ constexpr double kCloserThere = 0.5;
 /// Times that all lines are, where that is not enough, and at which share.
 constexpr int kCloserLines = 2;
 constexpr double kCloser = 0.6;
-/// Share of a tolerance that ragged boundaries may be off what lines take them for.
-constexpr double kShareOfBorders = 0.5;
 /// Share of the faces that cross, from which on all lines are traced closer where nobody wants a
 /// count; and times they are at most. Within a tolerance: share from which on they are before cells
 /// are divided, to which they are then, and share of the result from which on it is made anew.
@@ -406,7 +405,7 @@ std::string meet_tolerance(Session& session, const GoalStages& stages, const std
   stages.refine.option("refine-tolerance").parse_into(tolerance);
   if (const Option& border = stages.mesh.option("border-distance"); border.value().empty()) {
     Length most = Length::parse(tolerance);
-    most.value *= kShareOfBorders;
+    most.value *= kCourseOfTolerance;
     border.parse_into(most.to_string());
   }
   estimate_field(session, stages);

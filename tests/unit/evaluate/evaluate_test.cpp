@@ -10,36 +10,11 @@
 #include "common/core/error.h"
 #include "common/core/tolerance_error.h"
 #include "tests/support/mesh_support.h"
+#include "tests/unit/evaluate/evaluated.h"
 #include "tests/unit/evaluate/shapes.h"
 
 namespace strake {
 namespace {
-
-Report evaluated(const TriMesh& reference, const PolyMesh& candidate,
-                 const PrincipalField* field = nullptr, std::int64_t samples = 20000) {
-  EvaluateOptions options;
-  options.samples = samples;
-  SilentObserver observer;
-  return evaluate_mesh(reference, field, candidate, options, observer).report;
-}
-
-double number(const Report& report, const std::string& key) {
-  for (const auto& [name, value] : report.entries()) {
-    if (name != key) continue;
-    if (const auto* real = std::get_if<double>(&value)) return *real;
-    if (const auto* integer = std::get_if<std::int64_t>(&value)) {
-      return static_cast<double>(*integer);
-    }
-    return std::get<bool>(value) ? 1 : 0;
-  }
-  ADD_FAILURE() << "no entry " << key;
-  return std::nan("");
-}
-
-bool has(const Report& report, const std::string& key) {
-  return std::any_of(report.entries().begin(), report.entries().end(),
-                     [&](const auto& entry) { return entry.first == key; });
-}
 
 /// A tube of radius 1 around z with the exact curvature directions at its vertices.
 struct Tube {

@@ -2,14 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include "stages/evaluate/evaluate.h"
 #include "tests/support/mesh_support.h"
+#include "tests/unit/evaluate/evaluated.h"
 #include "tests/unit/evaluate/shapes.h"
 
 namespace strake {
@@ -37,17 +35,6 @@ TriMesh two_triangles(const std::vector<Vec3>& corners) {
 
 OwnCrossings crossings_of(const PolyMesh& mesh) {
   return find_own_crossings(shapes::reference(mesh));
-}
-
-Report report_of(const TriMesh& reference, const PolyMesh& candidate) {
-  EvaluateOptions options;
-  options.samples = 1000;
-  SilentObserver observer;
-  return evaluate_mesh(reference, nullptr, candidate, options, observer).report;
-}
-
-bool has(const Report& report, const std::string& name) {
-  return std::ranges::any_of(report.entries(), [&](const auto& e) { return e.first == name; });
 }
 
 std::string crossing_warning(const Report& report) {
@@ -93,8 +80,8 @@ TEST(OwnCrossings, AreTheSameFarAway) {
   const PolyMesh far = support::transformed(both, Mat3::Identity(), Vec3(4096, 0, 0));
   TriMesh reference = shapes::reference(both);
   reference.origin = Vec3(4096, 0, 0);
-  const std::string here = crossing_warning(report_of(shapes::reference(both), both));
-  const std::string there = crossing_warning(report_of(reference, far));
+  const std::string here = crossing_warning(evaluated(shapes::reference(both), both));
+  const std::string there = crossing_warning(evaluated(reference, far));
   ASSERT_NE(here, "");
   EXPECT_EQ(there.substr(0, there.find('(')), here.substr(0, here.find('(')));
   EXPECT_NEAR(std::stod(there.substr(there.find('(') + 1)), 4096.65, 0.351);
@@ -103,11 +90,11 @@ TEST(OwnCrossings, AreTheSameFarAway) {
 // The search takes a few per cent of a run that made a result.
 TEST(OwnCrossings, AreLookedForOnlyWhereTheResultCrosses) {
   const PolyMesh both = two_cubes(Vec3(0.3, 0.4, 0.6));
-  const Report parted = report_of(shapes::reference(both), two_cubes(Vec3(2, 0, 0)));
+  const Report parted = evaluated(shapes::reference(both), two_cubes(Vec3(2, 0, 0)));
   EXPECT_FALSE(has(parted, "shape.reference_crossing_pairs"));
   EXPECT_EQ(crossing_warning(parted), "");
   // A result whose faces cross and an input whose do not: nothing is to be said of the input.
-  const Report spoilt = report_of(shapes::reference(two_cubes(Vec3(2, 0, 0))), both);
+  const Report spoilt = evaluated(shapes::reference(two_cubes(Vec3(2, 0, 0))), both);
   EXPECT_TRUE(has(spoilt, "shape.reference_crossing_pairs"));
   EXPECT_EQ(crossing_warning(spoilt), "");
 }

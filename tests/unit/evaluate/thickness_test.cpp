@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <string>
-#include <variant>
 
-#include "stages/evaluate/evaluate.h"
-#include "tests/support/mesh_support.h"
+#include "tests/unit/evaluate/evaluated.h"
 #include "tests/unit/evaluate/shapes.h"
 
 namespace strake {
@@ -18,16 +16,7 @@ PolyMesh bar(Index n, double height) {
 }
 
 Report report_on(const PolyMesh& reference, const PolyMesh& candidate) {
-  EvaluateOptions options;
-  options.samples = 20000;
-  SilentObserver observer;
-  return evaluate_mesh(shapes::reference(reference), nullptr, candidate, options, observer).report;
-}
-
-double share(const Report& report, const std::string& name) {
-  const auto entry =
-      std::ranges::find(report.entries(), name, [](const auto& e) { return e.first; });
-  return entry == report.entries().end() ? -1 : std::get<double>(entry->second);
+  return evaluated(shapes::reference(reference), candidate);
 }
 
 bool is_warned(const Report& report) {
@@ -41,10 +30,10 @@ TEST(Thickness, AFlattenedBarIsNamed) {
   const Report report = report_on(bar(8, 1), bar(1, 0.4));
   // The sides of 10 x 1 above and below have lost 0.6 of 1; all of the bar is thin but its ends,
   // which are 10 apart.
-  EXPECT_NEAR(share(report, "thickness.thin_share"), 40.0 / 42, 1e-3);
-  EXPECT_NEAR(share(report, "thickness.changed_share"), 20.0 / 42, 1e-2);
-  EXPECT_NEAR(share(report, "thickness.worst"), 1, 1e-4);
-  EXPECT_NEAR(share(report, "thickness.worst_now"), 0.4, 1e-4);
+  EXPECT_NEAR(number(report, "thickness.thin_share"), 40.0 / 42, 1e-3);
+  EXPECT_NEAR(number(report, "thickness.changed_share"), 20.0 / 42, 1e-2);
+  EXPECT_NEAR(number(report, "thickness.worst"), 1, 1e-4);
+  EXPECT_NEAR(number(report, "thickness.worst_now"), 0.4, 1e-4);
   EXPECT_TRUE(is_warned(report));
   EXPECT_TRUE(is_warned(report_on(bar(8, 1), bar(1, 1e-3))));
   // One that is half as thick again.
@@ -56,7 +45,7 @@ TEST(Thickness, SmallChangesAndThickPartsAreNot) {
   EXPECT_FALSE(is_warned(report_on(bar(8, 1), bar(1, 0.7))));
   // Cells a tenth as long as the bar is thick: what is missing is a matter of distance.
   const Report thick = report_on(bar(8, 1), bar(32, 0.4));
-  EXPECT_EQ(share(thick, "thickness.thin_share"), 0);
+  EXPECT_EQ(number(thick, "thickness.thin_share"), 0);
   EXPECT_FALSE(is_warned(thick));
 }
 
