@@ -14,7 +14,7 @@
 namespace strake {
 
 inline Report evaluated(const TriMesh& reference, const PolyMesh& candidate,
-                 const PrincipalField* field = nullptr, std::int64_t samples = 20000) {
+                        const PrincipalField* field = nullptr, std::int64_t samples = 20000) {
   EvaluateOptions options;
   options.samples = samples;
   SilentObserver observer;
