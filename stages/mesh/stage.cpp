@@ -1,9 +1,11 @@
 #include "stages/mesh/stage.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "common/core/wanted_count.h"
@@ -12,11 +14,15 @@
 namespace strake {
 namespace {
 
-/// The count that lines were traced for, as their file says.
+/// The count that lines were traced for, as their file says; what says no count is none.
 std::optional<std::int64_t> wanted_of_lines(const Input& lines, Counted counted) {
   if (!lines.provenance) return std::nullopt;
   for (const auto& option : lines.provenance->options) {
-    if (option.name == name_of(counted) && !option.value.empty()) return std::stoll(option.value);
+    if (option.name != name_of(counted)) continue;
+    std::int64_t wanted = 0;
+    const char* end = option.value.data() + option.value.size();
+    const auto [read_to, error] = std::from_chars(option.value.data(), end, wanted);
+    if (error == std::errc() && read_to == end && wanted > 0) return wanted;
   }
   return std::nullopt;
 }
