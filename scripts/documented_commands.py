@@ -12,6 +12,7 @@ ELSEWHERE = {
     "cmake --preset release && cmake --build build": ("scripts/test", 'cmake --preset "$preset"'),
     "cmake --build build": ("scripts/test", 'cmake --build --preset "$preset"'),
     "scripts/check_clang": ("scripts/test", "scripts/check_clang build-clang"),
+    "scripts/check_clang --unity": ("scripts/test", "-DCMAKE_UNITY_BUILD=ON"),
     "scripts/check_cppcheck": ("scripts/test", "scripts/check_cppcheck"),
     "ctest --preset release -R Trace": ("scripts/test", 'ctest --preset "$preset"'),
     "ctest --preset release -L slurm": ("scripts/test", 'ctest --preset "$preset"'),

@@ -138,10 +138,11 @@ TEST(ReportScene, LargeInputsAreDrawnWithFewerFacesThatStayNear) {
 }
 
 TEST(ReportScene, ManyLinesHaveFewerPoints) {
-  const auto& [prepared, lines, quads] = example();
+  const TriMesh& mesh = example().prepared.mesh;
+  const LineSet& lines = example().lines;
   const auto points = [&](std::size_t most) {
     Blocks blocks;
-    return report::line_scene(prepared.mesh, lines, most, blocks)
+    return report::line_scene(mesh, lines, most, blocks)
         .at("points")
         .at("count")
         .get<std::size_t>();
