@@ -18,7 +18,7 @@
 
 #include "common/artifact/artifact.h"
 #include "common/artifact/digest.h"
-#include "common/artifact/store/entry_lock.h"
+#include "common/artifact/store/folder_lock.h"
 #include "common/artifact/store/store.h"
 #include "common/core/error.h"
 #include "common/stage/console.h"
@@ -135,9 +135,9 @@ class StepRun {
   }
 
   /// The lock of the entry, once whoever makes it at present is done.
-  std::unique_ptr<EntryLock> wait_for_lock(const EntryName& name) const {
+  std::unique_ptr<FolderLock> wait_for_lock(const EntryName& name) const {
     for (;;) {
-      auto lock = std::make_unique<EntryLock>(store_.folder(name));
+      auto lock = std::make_unique<FolderLock>(store_.folder(name));
       if (lock->is_held()) return lock;
       show("waiting for another run that makes the same");
       if (interrupt_requested()) throw Interrupted();
@@ -188,7 +188,7 @@ class StepRun {
     }
     const EntryName name{order_.model, order_.stage,
                          key_of(provenance, fs::path(order_.file_name).extension().string())};
-    const std::unique_ptr<EntryLock> lock = wait_for_lock(name);
+    const std::unique_ptr<FolderLock> lock = wait_for_lock(name);
     std::string damage;
     const std::optional<Entry> stored = store_.find(name, Store::Check::content, &damage);
     if (!damage.empty()) log("the store's artifact is not used: " + damage);

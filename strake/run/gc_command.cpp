@@ -122,7 +122,7 @@ int GcCommand::run() const {
     }
   }
   if (!dry_run) {
-    remove_old_runs(store);
+    remove_old_runs(store, kOldRun);
     store.empty_trash();
   }
   fmt::print("{} {}, {} results left\n", dry_run ? "would free" : "freed", bytes_text(freed), kept);

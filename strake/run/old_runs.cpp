@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/artifact/store/entry_lock.h"
+#include "common/artifact/store/folder_lock.h"
 #include "common/core/error.h"
 #include "strake/run/run_folder.h"
 
@@ -15,9 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using FileClock = fs::file_time_type::clock;
-
-constexpr std::chrono::hours kKeepEndedRuns{7 * 24};
-constexpr std::chrono::hours kKeepRuns{90 * 24};
 
 /// A record and when something was last written down in it.
 struct RunRecord {
@@ -40,36 +37,30 @@ std::vector<RunRecord> records_of(const Store& store) {
 /// Whether a process of this machine, or of another one that shares the locks, is at it.
 bool is_locked(const fs::path& run) {
   try {
-    return !EntryLock(run).is_held();
+    return !FolderLock(run).is_held();
   } catch (const InputError&) {
     return true;  // it is not for us to write there
   }
 }
 
 bool may_go_on(const RunRecord& record) {
-  if (record.written >= FileClock::now() - kFreshRun || is_locked(record.folder)) return true;
+  const auto age = FileClock::now() - record.written;
+  if (age <= kFreshRun || is_locked(record.folder)) return true;
   const RunFolder run(record.folder);
-  return !run.is_local() && !run.has_ended();
+  return !run.is_local() && !run.has_ended() && age <= kLongestQueue;
 }
 
 }  // namespace
 
-void remove_surplus_runs(const Store& store) {
+void remove_old_runs(const Store& store, std::optional<std::chrono::hours> from) {
   std::vector<RunRecord> records = records_of(store);
-  if (records.size() <= kKeptRuns) return;
   std::sort(records.begin(), records.end(),
             [](const RunRecord& a, const RunRecord& b) { return a.written > b.written; });
+  const auto now = FileClock::now();
   std::error_code ignored;
-  for (std::size_t r = kKeptRuns; r < records.size(); ++r) {
-    if (!may_go_on(records[r])) fs::remove_all(records[r].folder, ignored);
-  }
-}
-
-void remove_old_runs(const Store& store) {
-  std::error_code ignored;
-  for (const RunRecord& record : records_of(store)) {
-    const auto kept = RunFolder(record.folder).has_ended() ? kKeepEndedRuns : kKeepRuns;
-    if (record.written < FileClock::now() - kept) fs::remove_all(record.folder, ignored);
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    const bool is_old = r >= kKeptRuns || (from && now - records[r].written >= *from);
+    if (is_old && !may_go_on(records[r])) fs::remove_all(records[r].folder, ignored);
   }
 }
 

@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "common/artifact/store/entry_lock.h"
+#include "common/artifact/store/folder_lock.h"
 #include "common/core/error.h"
 #include "strake/commands.h"
 #include "strake/run/ninja_engine.h"
@@ -169,8 +169,8 @@ int RunCommand::run_locally(const Description& description, const Plan& plan,
   }();
   const Store store(plan.store);
   const RunFolder folder = RunFolder::create(store, settings(description));
-  const EntryLock going_on(folder.path());
-  remove_surplus_runs(store);
+  const FolderLock going_on(folder.path());
+  remove_old_runs(store);
   for (const StepOrder& order : orders) folder.write_order(order);
   RunDisplay display(folder, orders, quiet);
   const std::string complaint =
@@ -189,8 +189,8 @@ int RunCommand::run_on_cluster(const Description& description, const Plan& plan,
   const Store store(plan.store);
   const std::vector<StepOrder> orders = stale_orders(plan, states, 1);
   const RunFolder folder = RunFolder::create(store, settings(description));
-  const EntryLock going_on(folder.path());  // with --wait
-  remove_surplus_runs(store);
+  const FolderLock going_on(folder.path());  // with --wait
+  remove_old_runs(store);
   for (const StepOrder& order : orders) folder.write_order(order);
   const fs::path scripts =
       script_folder.empty() ? folder.path() / "slurm" : fs::absolute(script_folder);

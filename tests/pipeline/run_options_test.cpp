@@ -1,7 +1,7 @@
 #include <fstream>
 
 #include "common/artifact/digest.h"
-#include "common/artifact/store/entry_lock.h"
+#include "common/artifact/store/folder_lock.h"
 #include "common/artifact/store/store.h"
 #include "tests/pipeline/pipeline_run.h"
 
@@ -323,7 +323,7 @@ TEST_F(Collection, FoldersOfRunsThatBeginStay) {
   EXPECT_FALSE(fs::exists(run));
 }
 
-TEST_F(Collection, RunsThatHaveNotEndedStayLonger) {
+TEST_F(Collection, RunsOfAClusterThatHaveNotEndedStayLonger) {
   const fs::path runs = file("store") / ".runs";
   const auto age = [&](int days) {
     for (const auto& run : fs::directory_iterator(runs)) {
@@ -332,10 +332,14 @@ TEST_F(Collection, RunsThatHaveNotEndedStayLonger) {
     }
   };
   const fs::path waiting = fs::directory_iterator(runs)->path();
+  const fs::path killed = runs / "killed";
   fs::remove(fs::directory_iterator(waiting / "outcomes")->path());
+  fs::copy(waiting, killed, fs::copy_options::recursive);
+  fs::remove(waiting / "build.ninja");  // as of a cluster
   age(8);
   must("strake gc --unreachable");
   EXPECT_TRUE(fs::exists(waiting));
+  EXPECT_FALSE(fs::exists(killed));
   EXPECT_EQ(std::distance(fs::directory_iterator(runs), {}), 1);
   age(91);
   must("strake gc --unreachable");
@@ -385,7 +389,7 @@ TEST_F(ManyRuns, WhatMayGoOnStays) {
     fs::remove(fs::directory_iterator(earlier(n) / "outcomes")->path());
     age(earlier(n), 2 + n);
   };
-  const EntryLock going_on(earlier(59));
+  const FolderLock going_on(earlier(59));
   lose_an_outcome(58);
   fs::remove(earlier(58) / "build.ninja");  // as of a cluster, whose jobs may wait
   lose_an_outcome(57);                      // as of a run that was killed
@@ -409,7 +413,7 @@ TEST_F(Collection, NothingGoesFromAFolderThatIsNoStore) {
 
 TEST_F(Collection, WhatIsBeingMadeStays) {
   const std::string entry = entries().front();
-  const EntryLock maker(file("store") / entry);
+  const FolderLock maker(file("store") / entry);
   const std::string said = must("strake gc --max-size 0");
   EXPECT_NE(said.find("kept     " + entry), std::string::npos) << said;
   EXPECT_EQ(entries(), std::vector<std::string>{entry});

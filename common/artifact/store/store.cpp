@@ -11,7 +11,7 @@
 #include <system_error>
 
 #include "common/artifact/digest.h"
-#include "common/artifact/store/entry_lock.h"
+#include "common/artifact/store/folder_lock.h"
 #include "common/artifact/text_file.h"
 #include "common/core/error.h"
 
@@ -187,7 +187,7 @@ void Store::add(const EntryName& name, Entry& entry) const {
 }
 
 void Store::withdraw_if_damaged(const EntryName& name) const {
-  const EntryLock lock(folder(name));
+  const FolderLock lock(folder(name));
   if (!lock.is_held() || find(name, Check::content)) return;
   std::error_code error;
   fs::remove(folder(name) / kManifest, error);
@@ -237,7 +237,7 @@ void Store::touch(const EntryName& name) const {
 }
 
 bool Store::remove(const fs::path& folder) const {
-  const EntryLock lock(root_ / folder);
+  const FolderLock lock(root_ / folder);
   if (!lock.is_held()) return false;
   const fs::path trash = side_folder("trash");
   std::error_code error;

@@ -10,7 +10,7 @@
 #include <memory>
 
 #include "common/artifact/digest.h"
-#include "common/artifact/store/entry_lock.h"
+#include "common/artifact/store/folder_lock.h"
 #include "common/artifact/store/known_digests.h"
 #include "common/core/error.h"
 
@@ -140,7 +140,7 @@ TEST_F(StoreTest, WithdrawsWhatIsDamagedOnly) {
   EXPECT_EQ(damage(), "");
   put(entry.file, "whule");
   {
-    const EntryLock maker(store_.folder(name_));
+    const FolderLock maker(store_.folder(name_));
     store_.withdraw_if_damaged(name_);
     EXPECT_TRUE(fs::exists(manifest())) << "somebody is making it anew";
   }
@@ -151,7 +151,7 @@ TEST_F(StoreTest, WithdrawsWhatIsDamagedOnly) {
 TEST_F(StoreTest, RemovesEntriesButNotUnderTheirMaker) {
   add();
   {
-    const EntryLock maker(store_.folder(name_));
+    const FolderLock maker(store_.folder(name_));
     ASSERT_TRUE(maker.is_held());
     EXPECT_FALSE(store_.remove(name_.folder()));
     EXPECT_EQ(damage(), "");
@@ -204,16 +204,16 @@ TEST_F(StoreTest, AStoreThatCannotBeMadeIsNamed) {
 
 TEST_F(StoreTest, OneLockAnEntry) {
   const fs::path entry = store_.folder(name_);
-  auto first = std::make_unique<EntryLock>(entry);
+  auto first = std::make_unique<FolderLock>(entry);
   EXPECT_TRUE(first->is_held());
-  EXPECT_FALSE(EntryLock(entry).is_held());
+  EXPECT_FALSE(FolderLock(entry).is_held());
   const pid_t child = ::fork();
-  if (child == 0) ::_exit(EntryLock(entry).is_held() ? 1 : 0);
+  if (child == 0) ::_exit(FolderLock(entry).is_held() ? 1 : 0);
   int status = -1;
   ::waitpid(child, &status, 0);
   EXPECT_EQ(status, 0) << "another process has it too";
   first.reset();
-  EXPECT_TRUE(EntryLock(entry).is_held());
+  EXPECT_TRUE(FolderLock(entry).is_held());
 }
 
 TEST_F(StoreTest, LocksSurviveRemovalsAtAnyMoment) {
@@ -228,8 +228,8 @@ TEST_F(StoreTest, LocksSurviveRemovalsAtAnyMoment) {
   }
   int held = 0;
   for (int round = 0; round < 3000; ++round) {
-    std::unique_ptr<EntryLock> lock;
-    ASSERT_NO_THROW(lock = std::make_unique<EntryLock>(store_.folder(name_))) << round;
+    std::unique_ptr<FolderLock> lock;
+    ASSERT_NO_THROW(lock = std::make_unique<FolderLock>(store_.folder(name_))) << round;
     if (!lock->is_held()) continue;
     ++held;
     EXPECT_TRUE(fs::exists(store_.folder(name_) / "lock"));

@@ -1,4 +1,4 @@
-#include "common/artifact/store/entry_lock.h"
+#include "common/artifact/store/folder_lock.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -14,12 +14,12 @@ namespace strake {
 
 namespace fs = std::filesystem;
 
-EntryLock::EntryLock(const fs::path& folder) {
+FolderLock::FolderLock(const fs::path& folder) {
   const fs::path file = folder / "lock";
   std::error_code error;
   fs::create_directories(folder, error);
   descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  // Somebody may be removing the entry right now, and with it the folder just made.
+  // Somebody may be removing the folder right now, though it has just been made.
   if (descriptor_ < 0 && errno == ENOENT &&
       (!error || error == std::errc::no_such_file_or_directory)) {
     return;
@@ -34,14 +34,14 @@ EntryLock::EntryLock(const fs::path& folder) {
   if (::fcntl(descriptor_, F_OFD_SETLK, &range) != 0 && (errno == EAGAIN || errno == EACCES)) {
     return;
   }
-  // Somebody may have removed the entry, and with it this file, before the lock was taken.
+  // Somebody may have removed the folder, and with it this file, before the lock was taken.
   struct stat mine = {};
   struct stat present = {};
   held_ = ::fstat(descriptor_, &mine) == 0 && ::stat(file.c_str(), &present) == 0 &&
           mine.st_ino == present.st_ino;
 }
 
-EntryLock::~EntryLock() {
+FolderLock::~FolderLock() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 

@@ -4,18 +4,19 @@
 
 namespace strake {
 
-/// The exclusive right to write one entry of a store, among processes and machines that share it.
+/// The exclusive right to a folder, among processes and machines that share it: to write an entry
+/// of a store, or to go on with a run that is recorded there.
 ///
 /// The kernel gives it up when its owner ends, however that happens. A file system without locks
 /// is no error: two makers of one entry write the same bytes, only the work is done twice.
-class EntryLock {
+class FolderLock {
  public:
   /// Takes the lock if it is free. Makes the folder where it is missing.
   /// \throw InputError where the folder cannot be written
-  explicit EntryLock(const std::filesystem::path& folder);
-  EntryLock(const EntryLock&) = delete;
-  EntryLock& operator=(const EntryLock&) = delete;
-  ~EntryLock();
+  explicit FolderLock(const std::filesystem::path& folder);
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+  ~FolderLock();
 
   /// False while somebody else has it; try again with a new object.
   [[nodiscard]] bool is_held() const { return held_; }
