@@ -4,11 +4,11 @@
 
 namespace strake {
 
-/// How directly a line must head for its start to join it: largest angle between its heading, the
-/// way home and the direction it started in, as a cosine.
-const double kCloseCosine = std::cos(25 * M_PI / 180);
-/// The same where the line would end otherwise.
-const double kCloseCosineLast = std::cos(40 * M_PI / 180);
+/// How directly a line must head for where it is to end, as a cosine: largest angle between its
+/// heading and the way to a corner, or to its start, and then also the direction it started in.
+const double kAheadCosine = std::cos(25 * M_PI / 180);
+/// The same for its start where the line would end otherwise.
+const double kAheadCosineLast = std::cos(40 * M_PI / 180);
 
 /// Whether the head has come so far that its start, when near, is one to come back to.
 bool can_close(const LineHead& head, const LocalSpacing& spacing);

@@ -16,7 +16,6 @@ constexpr double kCoverStep = 0.4;     ///< line distances between discs that a 
 constexpr double kOwnSkip = 2.0;       ///< stop distances along itself that a line does not see
 constexpr double kWayOut = 1.2;        ///< stop distances at which a line is out of narrows
 constexpr double kTurnedRound = -0.5;  ///< cosine to its first direction of a line on its way round
-const double kCornerCosine = std::cos(25 * M_PI / 180);  ///< largest angle to a corner ahead
 constexpr double kLongestNarrows = 30;   ///< line distances that a line may run in narrows
 constexpr int kMaxSteps = 200000;        ///< hard bound on one half line
 constexpr std::size_t kStepsPerGap = 4;  ///< between places where a finished line is judged
@@ -127,7 +126,7 @@ void LineTracer::turn_back(const Narrows& narrows, LineHead& head, HalfLine& hal
 /// Ends a half line at a corner of features or boundaries straight ahead that no other line comes
 /// between: what follows there is alike and would stop it just before.
 bool LineTracer::meets_corner(const LineHead& head, ProximityQuery query, HalfLine& half) {
-  const Index corner = proximity_.corner_ahead(query, kCornerCosine);
+  const Index corner = proximity_.corner_ahead(query, kAheadCosine);
   if (corner == kNone) return false;
   query.distance = (domain_.mesh.positions[corner] - query.point).norm();
   query.ignore_barriers = true;
@@ -151,9 +150,9 @@ void LineTracer::trace_half(LineHead head, bool may_close, double stop_fraction,
     if (may_meet_corner && head.arc > 0 && meets_corner(head, query, half)) return;
     is_away = is_away || query.direction.dot(half.seed_direction) < kTurnedRound;
     const bool may_be_back = is_away || can_close(head, spacing);
-    if (may_be_back && closes(kCloseCosine)) return;
+    if (may_be_back && closes(kAheadCosine)) return;
     if (hit.conflict && head.arc > 0) {
-      if ((may_be_back || hit.line == kOwnLine) && closes(kCloseCosineLast)) return;
+      if ((may_be_back || hit.line == kOwnLine) && closes(kAheadCosineLast)) return;
       if (!narrows) narrows = {head.arc, half.points.size(), half.crossings.all().size(), hit.line};
       const bool comes_home =
           may_close && is_away && hit.line == kOwnLine &&
