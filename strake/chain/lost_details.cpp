@@ -16,10 +16,10 @@ namespace strake {
 namespace {
 
 constexpr int kMostAttempts = 2;
-/// Faces of a result, from which on there are none, and share of them that may cross: where more do
+/// Faces of a result, from which on there are none, and share of them that crosses, from which on
 /// lines are too coarse all over.
 constexpr Index kMostFaces = 10000;
-constexpr double kMostMayCross = 0.02;
+constexpr double kCrossAllOver = 0.02;
 /// Distance from the surface, in mean lengths of cells, from which on a detail is lost. A first
 /// look takes few samples: none is where less than this share of that distance is found with those.
 constexpr double kLost = 0.3;
@@ -76,7 +76,7 @@ Attempt regain_details(const Attempt& first, const Again& again,
   Attempt last = first;
   const Index faces = first.done.get<QuadMesh>(result_port(first.done)).mesh.face_count();
   const double crossing = static_cast<double>(first.places.size()) / faces;
-  if (faces > kMostFaces || crossing > kMostMayCross) return best;
+  if (faces > kMostFaces || crossing > kCrossAllOver) return best;
   Distance least = distance_of(first.done);
   Distance distance = least;
   bool is_last_best = true;

@@ -25,7 +25,7 @@ constexpr double kShapeLost = 0.8;
 constexpr double kManyCross = 0.02;
 constexpr double kTangled = 0.3;
 constexpr double kFewer = 0.25;
-constexpr double kMostCross = 0.1;
+constexpr double kMayCrossForShape = 0.1;
 /// Share of the faces that may be odd in a result where none cross, as some do in another one: more
 /// than there, and in all. Even few that cross are of no use to many programs.
 constexpr double kMoreOdd = 0.1;
@@ -91,7 +91,7 @@ bool is_much_better(const ResultFaults& other, const ResultFaults& faults) {
   const bool is_as_wanted = faults.missing > kFarOff && other.missing < kFarOff / 2;
   const bool is_sound =
       is_shape_missed(other, faults)
-          ? other.crossing <= std::max(faults.crossing, kMostCross)
+          ? other.crossing <= std::max(faults.crossing, kMayCrossForShape)
           : other.crossing <= faults.crossing && other.missing <= std::max(faults.missing, kFarOff);
   const double farther = is_as_wanted && faults.missing > kMissed ? kMore : kHardlyMore;
   return (is_nearer || is_clean || is_found || crosses_less || is_as_wanted) &&
