@@ -250,14 +250,13 @@ Vec3 BorderCourse::offset_at(const TriMesh& mesh, const SurfacePoint& point) con
 BorderCourse border_course(const TriMesh& mesh, const std::vector<double>& size, double most_off) {
   BorderCourse course;
   course.is_corner = mesh.is_corner;
+  course.direction = ragged_directions(mesh);
+  if (course.direction.empty()) return course;
   for_each_loop(mesh, [&](const BorderLoop& loop) {
     const Index count = loop.count();
     std::vector<double> reach(static_cast<std::size_t>(count), 0.0);
     for (Index i = 0; i < count; ++i) {
-      if (!loop.is_ragged(i)) continue;
-      if (course.direction.empty()) course.direction.assign(mesh.positions.size(), Vec3::Zero());
-      course.direction[loop.vertex(i)] = loop.direction(i);
-      reach[i] = loop.reach(i, size[loop.vertex(i)]);
+      if (loop.is_ragged(i)) reach[i] = loop.reach(i, size[loop.vertex(i)]);
     }
     drop_wide_teeth(loop, size, reach);
     std::vector<double> corners;  // along the loop, ascending
@@ -309,7 +308,15 @@ std::vector<double> sizes_at_vertices(const TriMesh& mesh, const std::vector<dou
 }
 
 std::vector<Vec3> ragged_directions(const TriMesh& mesh) {
-  return border_course(mesh, std::vector<double>(mesh.positions.size(), 0.0), 0).direction;
+  std::vector<Vec3> directions;
+  for_each_loop(mesh, [&](const BorderLoop& loop) {
+    for (Index i = 0; i < loop.count(); ++i) {
+      if (!loop.is_ragged(i)) continue;
+      if (directions.empty()) directions.assign(mesh.positions.size(), Vec3::Zero());
+      directions[loop.vertex(i)] = loop.direction(i);
+    }
+  });
+  return directions;
 }
 
 }  // namespace strake
