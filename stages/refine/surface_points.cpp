@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/geometry/angles.h"
+#include "common/geometry/chain_corners.h"
 #include "common/geometry/mesh_measures.h"
 #include "stages/refine/section_path.h"
 #include "stages/refine/way_split.h"
@@ -71,7 +72,7 @@ std::vector<SurfacePoint> SurfacePoints::jags_between(const SurfacePoint& from,
                                                       double within) const {
   const std::vector<SurfaceLines::Place> line = boundary_.way(from, to);
   const std::vector<Vec3> places = positions(line);
-  const std::vector<std::size_t> corners = corners_of_way(places, within);
+  const std::vector<std::size_t> corners = corners_of_chain(places, within);
   bool turns_left = false;
   bool turns_right = false;
   for (std::size_t i = 0; i < corners.size(); ++i) {

@@ -18,10 +18,6 @@ struct WayPlace {
 /// \param places  at least 2
 WayPlace split_of_way(const std::vector<Vec3>& places);
 
-/// The corners of a chain between which all of it is within a distance of straight pieces (Ramer,
-/// Douglas and Peucker), without its ends, ascending.
-std::vector<std::size_t> corners_of_way(const std::vector<Vec3>& places, double within);
-
 /// How far a chain is from its one chord at most, of a chain that is empty 0.
 double height_of_way(const std::vector<Vec3>& places);
 

@@ -9,6 +9,7 @@
 
 #include "common/core/error.h"
 #include "common/geometry/samples/planar_triangulation.h"
+#include "common/geometry/segment.h"
 
 namespace strake {
 namespace {
@@ -26,12 +27,6 @@ constexpr double kRimClearance = 0.4;
 double circumradius(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double area2 = (b - a).cross(c - a).norm();
   return (b - a).norm() * (c - b).norm() * (a - c).norm() / (2 * area2);
-}
-
-double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const Vec3 d = b - a;
-  const double t = std::clamp((p - a).dot(d) / d.squaredNorm(), 0.0, 1.0);
-  return (p - (a + t * d)).norm();
 }
 
 /// The triangulation of one patch: rim first, then points inside until all triangles are small.
@@ -112,7 +107,8 @@ class PatchFiller {
     for (const auto& edge : plane_.cavity()) {
       const Vec3 &a = at(global_[edge.from]), &b = at(global_[edge.to]);
       if ((p - a).norm() < kVertexClearance * wanted) return;
-      if (edge.locked != 0 && distance_to_segment(p, a, b) < kRimClearance * (b - a).norm()) return;
+      if (edge.locked != 0 && way_to_segment(p, a, b).norm() < kRimClearance * (b - a).norm())
+        return;
     }
     plane_.fill_cavity();
     global_.push_back(static_cast<Index>(draft_.positions.size()));
