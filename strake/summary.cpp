@@ -2,23 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <optional>
+#include <string>
+#include <utility>
 
 namespace strake {
-namespace {
-
-/// A number or flag of the report; empty where it says nothing about it.
-std::optional<double> measure(const Report& report, const std::string& key) {
-  for (const auto& [name, value] : report.entries()) {
-    if (name != key) continue;
-    if (const auto* real = std::get_if<double>(&value)) return *real;
-    if (const auto* count = std::get_if<std::int64_t>(&value)) return static_cast<double>(*count);
-    if (const auto* flag = std::get_if<bool>(&value)) return *flag ? 1 : 0;
-  }
-  return std::nullopt;
-}
-
-}  // namespace
 
 std::string summary_text(const std::string& output, const PolyMesh& mesh, const Report* measures) {
   Index quads = 0;
@@ -28,17 +15,17 @@ std::string summary_text(const std::string& output, const PolyMesh& mesh, const 
                                  100.0 * quads / std::max<Index>(mesh.face_count(), 1));
   if (measures == nullptr) return text;
   const auto line = [&](const char* label, const char* key, double factor, const char* unit) {
-    if (const auto value = measure(*measures, key)) {
+    if (const auto value = measures->number(key)) {
       text += fmt::format("  {:<28} {:.3g} {}\n", label, *value * factor, unit);
     }
   };
   const auto count = [&](const char* label, const char* key) {
-    if (const auto value = measure(*measures, key)) {
+    if (const auto value = measures->number(key)) {
       text += fmt::format("  {:<28} {:.0f}\n", label, *value);
     }
   };
-  if (const auto sound = measure(*measures, "topology.candidate.oriented_manifold")) {
-    const auto equal = measure(*measures, "topology.equal");
+  if (const auto sound = measures->number("topology.candidate.oriented_manifold")) {
+    const auto equal = measures->number("topology.equal");
     text += fmt::format("  {:<28} {}{}\n", "topology",
                         *sound != 0 ? "oriented manifold" : "NOT an oriented manifold",
                         !equal        ? ""
@@ -54,6 +41,9 @@ std::string summary_text(const std::string& output, const PolyMesh& mesh, const 
   line("within 10 deg of own field", "alignment.within_10_deg_share", 100, "% of the edge length");
   line("smallest angle", "angles.min_deg", 1, "deg");
   count("concave faces", "faces.concave");
+  if (measures->number("faces.degenerate").value_or(0) > 0) {
+    count("faces without area", "faces.degenerate");
+  }
   count("crossing pairs of faces", "shape.self_intersecting_pairs");
   return text;
 }

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -29,6 +32,15 @@ class Report {
 
   [[nodiscard]] const std::vector<std::pair<std::string, Value>>& entries() const {
     return entries_;
+  }
+  /// A number, a count, or a flag as 0 or 1; nullopt where there is none of that name.
+  [[nodiscard]] std::optional<double> number(std::string_view key) const {
+    const auto entry = std::ranges::find(entries_, key, [](const auto& e) { return e.first; });
+    if (entry == entries_.end()) return std::nullopt;
+    if (const auto* real = std::get_if<double>(&entry->second)) return *real;
+    if (const auto* count = std::get_if<std::int64_t>(&entry->second)) return double(*count);
+    if (const auto* flag = std::get_if<bool>(&entry->second)) return *flag ? 1 : 0;
+    return std::nullopt;
   }
   [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 

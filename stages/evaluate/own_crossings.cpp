@@ -9,6 +9,7 @@
 #include <numeric>
 #include <vector>
 
+#include "common/core/place_text.h"
 #include "common/geometry/face_crossings/box_tree.h"
 #include "common/geometry/face_crossings/face_crossings.h"
 #include "common/geometry/face_crossings/penetration.h"
@@ -74,10 +75,10 @@ void report_own_crossings(const TriMesh& reference, std::int64_t pairs, Report& 
   const Vec3 place = own.place + reference.origin;
   report.warn(fmt::format(
       "{} pair{} of faces of the result cross{}, and the input itself has {} such pair{}, one near "
-      "({:.6g}, {:.6g}, {:.6g}): the result follows it and crosses itself there, too; where it "
+      "{}: the result follows it and crosses itself there, too; where it "
       "should not, unite the parts of the model first (a boolean union), or repair it",
       pairs, pairs == 1 ? "" : "s", pairs == 1 ? "es" : "", own.pairs, own.pairs == 1 ? "" : "s",
-      place.x(), place.y(), place.z()));
+      place_text(place, reference.diagonal)));
 }
 
 }  // namespace strake::evaluation

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <vector>
 
+#include "common/core/place_text.h"
+
 namespace strake::evaluation {
 namespace {
 
@@ -82,10 +84,10 @@ void report_thickness(const ThicknessRequest& request, Report& report) {
   report.set("thickness.worst", seen[worst].thickness);
   report.set("thickness.worst_now", seen[worst].now);
   report.warn(fmt::format(
-      "a part that is {:.3g} thick at ({:.6g}, {:.6g}, {:.6g}) is {:.3g} thick there now, and "
+      "a part that is {:.3g} thick at {} is {:.3g} thick there now, and "
       "{:.2g} % of the surface is of parts that changed like that: they are thinner than faces are "
       "long; ask for more vertices, or for a smaller tolerance",
-      seen[worst].thickness, place.x(), place.y(), place.z(), seen[worst].now, 100 * share));
+      seen[worst].thickness, place_text(place, request.diagonal), seen[worst].now, 100 * share));
 }
 
 }  // namespace strake::evaluation

@@ -12,6 +12,7 @@ struct ThicknessRequest {
   const MeasuredSurface& reference;
   const MeasuredSurface& candidate;
   Vec3 origin = Vec3::Zero();  ///< of both, in the coordinates of the file
+  double diagonal = 0;         ///< of the reference, model units
   double cell = 0;             ///< mean length, model units; positive
   std::int64_t samples = 0;    ///< on the reference; positive
 };

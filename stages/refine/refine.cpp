@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/core/error.h"
+#include "common/core/place_text.h"
 #include "common/core/tolerance_error.h"
 #include "common/geometry/carry_attributes.h"
 #include "common/geometry/cell_error/cell_error.h"
@@ -308,8 +309,8 @@ std::string describe(std::vector<Excess> excess, const TriMesh& mesh, double tol
     const auto is_near = [&](const Vec3& p) { return (p - e.place).norm() < tolerance; };
     if (std::any_of(named.begin(), named.end(), is_near)) continue;
     const Vec3 p = e.place + mesh.origin;
-    text += fmt::format("{}{:.3g} at ({:.6g}, {:.6g}, {:.6g})", named.empty() ? "" : ", ",
-                        e.distance, p.x(), p.y(), p.z());
+    text += fmt::format("{}{:.3g} at {}", named.empty() ? "" : ", ", e.distance,
+                        place_text(p, mesh.diagonal));
     named.push_back(e.place);
     if (named.size() == kNamedPlaces) break;
   }

@@ -64,28 +64,6 @@ void warn_of_crossing(Session& session, const std::string& port) {
       faces));
 }
 
-/// Distance from which on a detail is missing, in mean lengths of edges: of 170 results none with
-/// more had all of its shape, and none with less looked wrong.
-constexpr double kMissing = 0.35;
-
-double number(const Report& report, std::string_view name) {
-  const auto entry =
-      std::ranges::find(report.entries(), name, [](const auto& e) { return e.first; });
-  const double* value =
-      entry == report.entries().end() ? nullptr : std::get_if<double>(&entry->second);
-  return value == nullptr ? 0 : *value;
-}
-
-void warn_of_missing_details(Session& session, const Report& measures) {
-  const double largest = number(measures, "distance.max");
-  const double edge = number(measures, "edges.length_mean");
-  if (!(largest > kMissing * edge)) return;
-  session.say(fmt::format(
-      "warning: a place is {:.3g} % of the diagonal off, {:.2g} times as far as an edge is long on "
-      "average: a detail is missing there; more vertices show it, and --tolerance any",
-      100 * number(measures, "distance.max_share"), largest / edge));
-}
-
 }  // namespace
 
 Chain::Chain()
@@ -255,8 +233,6 @@ const Report& Chain::measure(Session& session, const std::string& port) const {
   if (is_proven) {
     const double diagonal = session.get<TriMesh>("mesh").diagonal;
     say_what_is_proven(session, Length::parse(tolerance).resolve(diagonal));
-  } else {
-    warn_of_missing_details(session, *report);
   }
   return *report;
 }

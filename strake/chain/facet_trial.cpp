@@ -78,9 +78,7 @@ class OptionValues {
 
 bool has_facets(const Session& session) {
   for (const StageRecord& record : session.records()) {
-    for (const auto& [name, value] : record.report.entries()) {
-      if (name == "features.facet_edges") return std::get<std::int64_t>(value) > 0;
-    }
+    if (record.report.number("features.facet_edges").value_or(0) > 0) return true;
   }
   return false;
 }

@@ -23,12 +23,7 @@ constexpr double kNegligible = 0.01;
 double number_of(const Session& session, std::string_view stage, std::string_view name) {
   double found = 0;
   for (const StageRecord& record : session.records()) {
-    if (record.provenance.stage != stage) continue;
-    for (const auto& [key, value] : record.report.entries()) {
-      if (key != name) continue;
-      if (const auto* real = std::get_if<double>(&value)) found = *real;
-      if (const auto* count = std::get_if<std::int64_t>(&value)) found = double(*count);
-    }
+    if (record.provenance.stage == stage) found = record.report.number(name).value_or(found);
   }
   return found;
 }

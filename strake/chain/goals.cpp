@@ -52,6 +52,9 @@ constexpr double kTangled = 0.5;
 constexpr double kMended = 0.3;
 constexpr double kTangledResult = 0.1;
 constexpr int kMostTimesCloser = 4;
+/// Root mean square of the distance of lines, in mean cell lengths, from which on they are traced
+/// closer likewise: noise can hide the shape from them.
+constexpr double kTooFarOff = 0.15;
 /// Attempts in vain to part faces that cross; within a tolerance the input's own faces have been
 /// tried for them before.
 constexpr int kPatience = 5;
@@ -312,30 +315,42 @@ void trace_to_count(Session& session, const GoalStages& stages, const LineAim& a
                              .done;
 }
 
-/// Traces, and closer where so many faces cross that lines are too coarse for the shape. Then makes
-/// errors even, unless that brings crossing faces back.
+/// Traces, and closer where so many faces cross, or they are so far off, that lines are too coarse
+/// for the shape. Then makes errors even, unless that brings crossing faces back.
 /// \return whether errors were looked at
 bool trace_freely(Session& session, const GoalStages& stages, std::int64_t feedback_rounds) {
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
   trace_and_mesh(session, stages);
   double share = crossing_share(session, crossing);
-  for (int i = 0;
-       i < kMostTimesCloser && share > kTooManyCross && may_be_too_coarse(session, "quads"); ++i) {
-    session.say(fmt::format("{:.0f} % of the faces cross; tracing closer lines", 100 * share));
+  int times_left = kMostTimesCloser;
+  const auto trace_closer = [&](const std::string& why) {
+    session.say(why + "; tracing closer lines");
     scale_lines(stages, kCloser * line_scale(stages));
     trace_and_mesh(session, stages);
     share = crossing_share(session, crossing);
+    --times_left;
+  };
+  while (times_left > 0 && share > kTooManyCross && may_be_too_coarse(session, "quads")) {
+    trace_closer(fmt::format("{:.0f} % of the faces cross", 100 * share));
   }
   if (feedback_rounds == 0 || crossing.is_stacked()) return false;
-  for (std::int64_t round = 0; round < feedback_rounds; ++round) {
+  for (std::int64_t round = 0; round < feedback_rounds;) {
     const Session before = session;
-    even_out(session, stages);
+    const double scale_before = line_scale(stages);
+    const double off = even_out(session, stages);
+    if (round == 0 && off > kTooFarOff && times_left > 0 && may_be_too_coarse(before, "quads")) {
+      session = before;
+      scale_lines(stages, scale_before);
+      trace_closer(fmt::format("cells are {:.2g} of their length off in the mean", off));
+      continue;
+    }
     const double now = crossing_share(session, crossing);
     if (now > std::max(share, kTooManyCross)) {
       session = before;
       break;
     }
     share = now;
+    ++round;
   }
   return true;
 }

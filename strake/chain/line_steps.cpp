@@ -35,9 +35,10 @@ constexpr int kRoundsBeforeDividing = 3;
 ///
 /// Errors are those of vertices on the surface: where they are large they stay so when vertices
 /// are fitted.
-void want_by_errors(Session& session, const GoalStages& stages) {
+/// \return root mean square of the distance, model units
+double want_by_errors(Session& session, const GoalStages& stages) {
   session.provide_as("fitted", session.get<QuadMesh>("quads"), "quads");
-  session.run(stages.size);
+  return session.run(stages.size).number("size.rms").value_or(0);
 }
 
 /// Cells that lines at these distances have between them, about.
@@ -112,13 +113,14 @@ void feed_back(Session& session, const GoalStages& stages, const LineAim& aim) {
   scale_lines(stages, line_scale(stages) * std::sqrt(excess));
 }
 
-void even_out(Session& session, const GoalStages& stages) {
+double even_out(Session& session, const GoalStages& stages) {
   const auto& mesh = session.get<TriMesh>("mesh");
   const double cells = cells_at(mesh, used_distances(session.get<LineSet>("lines")));
-  want_by_errors(session, stages);
+  const double rms = want_by_errors(session, stages);
   const double more = cells_at(mesh, session.get<SizeField>("size")) / cells;
   scale_lines(stages, std::sqrt(kEvenExcess * more));
   trace_and_mesh(session, stages);
+  return rms / std::sqrt(surface_area(mesh) / cells);
 }
 
 void shrink_to_tolerance(Session& session, const GoalStages& stages, const std::string& tolerance) {

@@ -41,7 +41,8 @@ void feed_back(Session& session, const GoalStages& stages, const LineAim& aim);
 
 /// Traces again at distances for even errors, with about as many lines as there are.
 /// \pre traced and meshed
-void even_out(Session& session, const GoalStages& stages);
+/// \return how far those were off: the root mean square of the distance, in mean cell lengths
+double even_out(Session& session, const GoalStages& stages);
 
 /// Traces lines, and wants closer ones where a result of them is farther from the surface than a
 /// tolerance allows.

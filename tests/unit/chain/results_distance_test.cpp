@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,20 @@ TEST(Remesh, WithFewVerticesATipStays) {
   EXPECT_NEAR(result.quads.mesh.vertex_count(), 90, 9);
   const ErrorMap map = measure_cells(ComparedSurfaces(result.mesh, result.quads));
   EXPECT_LT(map.largest, 0.15);
+}
+
+// Directions are those of the noise, and lines a tenth of the shape apart miss it.
+TEST(Remesh, WithoutAGoalNoiseDoesNotHideTheShape) {
+  SampleOptions sample;
+  sample.faces = 10000;
+  PolyMesh mesh = make_sample(SampleKind::torus, sample);
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> noise(-0.06, 0.06);
+  for (Vec3& p : mesh.positions) p += Vec3(noise(random), noise(random), noise(random));
+  Listener listener;
+  const RemeshResult result = remesh({mesh, {}, {}, {}}, {}, listener);
+  EXPECT_NE(listener.said.find("off in the mean; tracing closer lines"), std::string::npos);
+  EXPECT_LT(largest_distance(result), 0.15);
 }
 
 // Lines three times as far apart as usual pass a tip by.

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "common/core/error.h"
+#include "common/core/place_text.h"
 #include "common/core/tolerance_error.h"
 #include "tests/support/mesh_support.h"
 #include "tests/unit/evaluate/evaluated.h"
@@ -45,6 +46,19 @@ struct Tube {
     });
   }
 };
+
+// The place is that of the file, wherever the model lies.
+TEST(Evaluate, SaysWhereADetailIsMissing) {
+  PolyMesh torus = shapes::torus(40, 20, 1, 0.3);
+  torus.positions[0] *= 1.3;
+  const Vec3 tip = torus.positions[0];
+  const TriMesh reference = shapes::reference(torus);
+  EXPECT_TRUE(evaluated(reference, torus).warnings().empty());
+  const Report report = evaluated(reference, shapes::torus(40, 20, 1, 0.3));
+  ASSERT_FALSE(report.warnings().empty());
+  EXPECT_NE(report.warnings()[0].find("a detail is missing"), std::string::npos);
+  EXPECT_NE(report.warnings()[0].find(place_text(tip, reference.diagonal)), std::string::npos);
+}
 
 TEST(Evaluate, RefusesWhatIsFartherThanATolerance) {
   const PolyMesh torus = shapes::torus(40, 20, 1, 0.3);

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
-#include <variant>
 
 #include "stages/evaluate/evaluate.h"
 #include "tests/support/mesh_support.h"
@@ -23,14 +22,7 @@ inline Report evaluated(const TriMesh& reference, const PolyMesh& candidate,
 
 /// An entry of a report, which it must have.
 inline double number(const Report& report, const std::string& key) {
-  for (const auto& [name, value] : report.entries()) {
-    if (name != key) continue;
-    if (const auto* real = std::get_if<double>(&value)) return *real;
-    if (const auto* integer = std::get_if<std::int64_t>(&value)) {
-      return static_cast<double>(*integer);
-    }
-    return std::get<bool>(value) ? 1 : 0;
-  }
+  if (const auto value = report.number(key)) return *value;
   ADD_FAILURE() << "no entry " << key;
   return std::nan("");
 }

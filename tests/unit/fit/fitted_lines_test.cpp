@@ -240,5 +240,44 @@ TEST(Fit, AFlatDiskDoesNotCrowdTheLinesAroundIt) {
   }
 }
 
+/// A flat ring of quads between radii of 1/2 and 1, lines at these angles.
+PolyMesh flat_ring(const std::vector<double>& angles, Index rows) {
+  PolyMesh mesh;
+  const auto n = static_cast<Index>(angles.size());
+  for (Index j = 0; j <= rows; ++j) {
+    const double radius = 0.5 + 0.5 * j / rows;
+    for (const double angle : angles) {
+      mesh.positions.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0);
+    }
+  }
+  for (Index j = 0; j < rows; ++j) {
+    for (Index i = 0; i < n; ++i) {
+      const Index next = (i + 1) % n;
+      mesh.add_face(
+          std::vector<Index>{j * n + i, (j + 1) * n + i, (j + 1) * n + next, j * n + next});
+    }
+  }
+  return mesh;
+}
+
+// No face of a flat ring is off the surface, but long edges cut off much of its outlines.
+TEST(Fit, KeepsToTheOutlineOfAFlat) {
+  std::vector<double> even;
+  for (int i = 0; i < 240; ++i) even.push_back(2 * M_PI * i / 240);
+  std::vector<double> uneven;
+  for (int i = 0; i < 24; ++i) uneven.push_back(2 * M_PI * (i + (i % 2 == 0 ? 0.2 : -0.2)) / 24);
+  const support::Prepared surface = support::prepare(flat_ring(even, 20));
+  const QuadMesh result = fitted(surface.mesh, placed_on(surface.mesh, flat_ring(uneven, 1)));
+  for (const double radius : {0.5, 1.0}) {
+    std::vector<double> angles;
+    for (const Vec3& p : result.mesh.positions) {
+      if (std::abs(p.norm() - radius) < 1e-2) angles.push_back(std::atan2(p.y(), p.x()));
+    }
+    ASSERT_EQ(angles.size(), 24u);
+    EXPECT_LT(unevenness(angles), 1.05) << radius;
+  }
+  EXPECT_GT(unevenness(uneven), 1.4);
+}
+
 }  // namespace
 }  // namespace strake
