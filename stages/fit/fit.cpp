@@ -17,8 +17,8 @@
 #include "stages/fit/divide_crossing.h"
 #include "stages/fit/face_guard.h"
 #include "stages/fit/flow_lines.h"
-#include "stages/fit/line_deviation.h"
 #include "stages/fit/move_apart.h"
+#include "stages/fit/outline.h"
 #include "stages/fit/result_components.h"
 #include "stages/fit/vertex_places.h"
 
@@ -29,6 +29,7 @@ using fitting::BlockSystem;
 using fitting::Deviation;
 using fitting::FaceGuard;
 using fitting::FlowLines;
+using fitting::Outline;
 using fitting::VertexPlaces;
 
 /// Weight that holds a vertex back along the normal, as a share of the samples' around it: what
@@ -78,7 +79,7 @@ class Fit {
         places_(mesh, surface_, quads, field),
         deviation_(mesh, surface_, places_.face_normals(), places_.wedge_normals(),
                    triangle_count(quads.mesh)),
-        line_deviation_(quads.mesh, places_),
+        outline_(quads.mesh, places_),
         lines_(quads.mesh),
         guard_(quads.mesh, places_),
         system_(lines_.neighbours()) {
@@ -145,7 +146,7 @@ class Fit {
  private:
   /// What is minimised. \param squares  [V] squared distance that a turn by a radian is worth
   [[nodiscard]] double cost(const std::vector<double>& squares) const {
-    return deviation_.cost() + line_deviation_.cost() + lines_.cost(places_, field_, squares);
+    return deviation_.cost() + outline_.cost() + lines_.cost(places_, field_, squares);
   }
 
   /// [V] of a squared distance, what it is for cells as large as those of the vertex's component.
@@ -213,7 +214,7 @@ class Fit {
   [[nodiscard]] std::vector<Vec3> solve(const std::vector<double>& squares) {
     system_.set_zero();
     deviation_.add_to(system_);
-    line_deviation_.add_to(system_);
+    outline_.add_to(system_);
     lines_.add_to(system_, places_, field_, squares);
     const std::vector<double> area = vertex_areas();
     const std::vector<double> on_surface =
@@ -266,7 +267,7 @@ class Fit {
   SurfaceDistance surface_;
   VertexPlaces places_;
   Deviation deviation_;
-  fitting::LineDeviation line_deviation_;
+  Outline outline_;
   FlowLines lines_;
   FaceGuard guard_;
   BlockSystem system_;

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <set>
 #include <utility>
 
 #include "common/geometry/frames.h"
@@ -21,10 +19,7 @@ namespace {
 constexpr double kOnBoundary = 1e-9;
 /// A foot stays on a sheet whose normal is within 60 degrees of the last one.
 constexpr double kLeastAgreement = 0.5;
-/// A line between neighbours on it is at most this many times as long as their edge: up to half a
-/// circle. The other way around a ring is longer.
-constexpr double kLongestWay = 2;
-/// Vertices of the input that stand for such a line.
+/// Vertices of the input's boundary that stand for what lies between two of the result's.
 constexpr std::size_t kMostBetween = 4;
 
 /// [V of the input] lengths of the edges of a result that stand for the boundary there; 0
@@ -172,115 +167,56 @@ Vec3 VertexPlaces::at(const LinePlace& place) const {
 
 VertexPlaces::LinePlace VertexPlaces::slide(LinePlace place, double distance) const {
   const Index start = mesh_.edge_of(place.halfedge);
-  LineWay way{place.halfedge, distance >= 0};
+  bool forward = distance >= 0;
   double left = std::abs(distance);
   while (true) {
     const double length =
         (line_end(place, mesh_.to(place.halfedge)) - line_end(place, mesh_.from(place.halfedge)))
             .norm();
-    const double ahead = length * (way.is_forward ? 1 - place.along : place.along);
+    const double ahead = length * (forward ? 1 - place.along : place.along);
     if (left <= ahead) {
-      if (length > 0) place.along += (way.is_forward ? left : -left) / length;
+      if (length > 0) place.along += (forward ? left : -left) / length;
       place.along = std::clamp(place.along, 0.0, 1.0);
       return place;
     }
     left -= ahead;
-    place.along = way.is_forward ? 1 : 0;
-    go_on(way);
+    place.along = forward ? 1 : 0;
+    const Index vertex = forward ? mesh_.to(place.halfedge) : mesh_.from(place.halfedge);
+    const Index next = other_barrier(vertex, place.halfedge);
     // Around a loop it comes back: one of no length would be gone around for ever.
-    if (way.halfedge == kNone || mesh_.edge_of(way.halfedge) == start) return place;
-    place.halfedge = way.halfedge;
-    place.along = way.is_forward ? 0 : 1;
+    if (next == kNone || mesh_.edge_of(next) == start) return place;
+    forward = mesh_.from(next) == vertex;
+    place.halfedge = next;
+    place.along = forward ? 0 : 1;
   }
 }
 
-Index VertexPlaces::vertex_of_input(Index v) const {
-  for (int i = 0; i < 3; ++i) {
-    if (foot_[v][i] > 1 - kOnEdge) return mesh_.from(3 * foot_face_[v] + i);
+Index VertexPlaces::boundary_at(Index v) const {
+  Index h = lines_[v].halfedge;
+  for (int i = 0; h == kNone && i < 3; ++i) {
+    if (foot_[v][i] > 1 - kOnEdge) h = mesh_.vertex_out[mesh_.from(3 * foot_face_[v] + i)];
   }
-  return kNone;
+  return h != kNone && mesh_.is_boundary(h) ? h : kNone;
 }
 
-std::vector<std::array<Index, 2>> VertexPlaces::line_steps() const {
-  std::multimap<Index, Index> on_edge;  // edge of the input, vertex
-  std::map<Index, Index> at_vertex;     // corner of the input, vertex
-  for (Index v = 0; v < static_cast<Index>(lines_.size()); ++v) {
-    if (lines_[v].kind == Kind::line) on_edge.emplace(mesh_.edge_of(lines_[v].halfedge), v);
-    if (lines_[v].kind == Kind::fixed) at_vertex.emplace(vertex_of_input(v), v);
+std::vector<Vec3> VertexPlaces::boundary_between(Index a, Index b) const {
+  const Index first = boundary_at(a);
+  const Index last = boundary_at(b);
+  if (first == kNone || last == kNone || !(is_on_line(a) || is_on_line(b))) return {};
+  const LinePlace& slides = lines_[is_on_line(a) ? a : b];
+  std::vector<Vec3> places;
+  for (Index h = first; h != last;) {
+    const Index vertex = mesh_.to(h);
+    places.push_back(line_end(slides, vertex));
+    h = mesh_.vertex_out[vertex];
+    if (h == first) return {};
   }
-  const auto next = [&](Index v, LineWay way) {
-    const Index start = mesh_.edge_of(way.halfedge);
-    const auto passed = [&](Index w) {  // share of the edge of `way` until there
-      const LinePlace& place = lines_[w];
-      return (place.halfedge == way.halfedge) == way.is_forward ? place.along : 1 - place.along;
-    };
-    double from = passed(v);
-    do {
-      Index first = kNone;
-      const auto [begin, end] = on_edge.equal_range(mesh_.edge_of(way.halfedge));
-      for (auto other = begin; other != end; ++other) {
-        const Index w = other->second;
-        if (w == v || passed(w) < from || (first != kNone && passed(w) >= passed(first))) continue;
-        first = w;
-      }
-      if (first != kNone) return first;
-      const auto corner = at_vertex.find(go_on(way));
-      if (corner != at_vertex.end()) return corner->second;
-      from = 0;
-    } while (way.halfedge != kNone && mesh_.edge_of(way.halfedge) != start);
-    return kNone;
-  };
-  std::set<std::array<Index, 2>> steps;
-  for (Index v = 0; v < static_cast<Index>(lines_.size()); ++v) {
-    if (lines_[v].kind != Kind::line) continue;
-    for (const bool forward : {true, false}) {
-      const Index w = next(v, {lines_[v].halfedge, forward});
-      if (w != kNone) steps.insert({std::min(v, w), std::max(v, w)});
-    }
-  }
-  return {steps.begin(), steps.end()};
-}
-
-std::vector<Vec3> VertexPlaces::line_between(Index a, Index b) const {
-  if (!is_on_line(a)) std::swap(a, b);
-  const PassedLine forward = line_on_to(a, b, true);
-  const PassedLine back = line_on_to(a, b, false);
-  const std::vector<Vec3>& line = forward.length <= back.length ? forward.places : back.places;
-  if (line.size() <= kMostBetween) return line;
+  if (places.size() <= kMostBetween) return places;
   std::vector<Vec3> some;
   for (std::size_t i = 0; i < kMostBetween; ++i) {
-    some.push_back(line[(2 * i + 1) * line.size() / (2 * kMostBetween)]);
+    some.push_back(places[(2 * i + 1) * places.size() / (2 * kMostBetween)]);
   }
   return some;
-}
-
-VertexPlaces::PassedLine VertexPlaces::line_on_to(Index a, Index b, bool forward) const {
-  const Index corner = is_on_line(b) ? kNone : vertex_of_input(b);
-  const Index edge = is_on_line(b) ? mesh_.edge_of(lines_[b].halfedge) : kNone;
-  const double longest = kLongestWay * (positions_[b] - positions_[a]).norm();
-  const PassedLine none{{}, std::numeric_limits<double>::infinity()};
-  PassedLine passed;
-  LineWay way{lines_[a].halfedge, forward};
-  Vec3 last = positions_[a];
-  while (mesh_.edge_of(way.halfedge) != edge) {
-    const Index vertex = go_on(way);
-    if (vertex == corner) break;
-    if (way.halfedge == kNone) return none;
-    const Vec3 place = line_end(lines_[a], vertex);
-    passed.length += (place - last).norm();
-    if (passed.length > longest) return none;
-    passed.places.push_back(place);
-    last = place;
-  }
-  passed.length += (positions_[b] - last).norm();
-  return passed;
-}
-
-Index VertexPlaces::go_on(LineWay& way) const {
-  const Index vertex = way.is_forward ? mesh_.to(way.halfedge) : mesh_.from(way.halfedge);
-  way.halfedge = other_barrier(vertex, way.halfedge);
-  way.is_forward = way.halfedge != kNone && mesh_.from(way.halfedge) == vertex;
-  return vertex;
 }
 
 Mat3 VertexPlaces::freedom(Index v) const {

@@ -45,11 +45,9 @@ class VertexPlaces {
   [[nodiscard]] Vec3 cross_arm(const PrincipalField& field, Index v) const;
   /// |k_max - k_min| at the vertex's foot, 1/length.
   [[nodiscard]] double anisotropy(const PrincipalField& field, Index v) const;
-  /// Pairs of vertices that follow each other on a feature or boundary line.
-  [[nodiscard]] std::vector<std::array<Index, 2>> line_steps() const;
-  /// Places of the input's vertices between two that do, in the order of the line; four of them
-  /// where there are more.
-  [[nodiscard]] std::vector<Vec3> line_between(Index a, Index b) const;
+  /// Places of the input's boundary vertices between two vertices of a boundary edge, in the order
+  /// of its face; four of them where there are more. None where neither can slide.
+  [[nodiscard]] std::vector<Vec3> boundary_between(Index a, Index b) const;
   /// Projects onto the directions in which the vertex may move: rank 3, 1 or 0.
   [[nodiscard]] Mat3 freedom(Index v) const;
 
@@ -89,22 +87,8 @@ class VertexPlaces {
   /// An end of the half-edge that a vertex slides along.
   [[nodiscard]] Vec3 line_end(const LinePlace& place, Index vertex) const;
   [[nodiscard]] Vec3 tangent(const LinePlace& place) const;
-  /// The vertex of the input that a vertex lies at; kNone: at none.
-  [[nodiscard]] Index vertex_of_input(Index v) const;
-  /// A way along a line.
-  struct LineWay {
-    Index halfedge;
-    bool is_forward;
-  };
-  /// Goes on to the next edge. \return the vertex of the input in between
-  Index go_on(LineWay& way) const;
-  /// Places of the input's vertices on the way, and its length.
-  struct PassedLine {
-    std::vector<Vec3> places;
-    double length = 0;
-  };
-  /// From `a`, which slides, to `b`, one way around; of infinite length where that is too far.
-  [[nodiscard]] PassedLine line_on_to(Index a, Index b, bool forward) const;
+  /// The half-edge of the boundary that a vertex lies on, or that goes on from it; kNone: inside.
+  [[nodiscard]] Index boundary_at(Index v) const;
   [[nodiscard]] LinePlace slide(LinePlace place, double distance) const;
   [[nodiscard]] Vec3 at(const LinePlace& place) const;
   [[nodiscard]] Vec3 normal_at_foot(Index v) const;

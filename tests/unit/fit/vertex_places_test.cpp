@@ -61,22 +61,14 @@ TEST(VertexPlaces, GoAroundAtMostOnce) {
   EXPECT_EQ(others.positions()[0], c.triangle.positions[1]);
 }
 
-/// Without corners all three follow each other around, beyond the input's vertex in between; a line
-/// ends at a corner where the result has none.
-TEST(VertexPlaces, FollowEachOtherOnLines) {
-  using Steps = std::vector<std::array<Index, 2>>;
-  const OnTheBoundary ring(0);
-  const SurfaceDistance surface(ring.mesh.positions, ring.mesh.faces);
-  const fitting::VertexPlaces around(ring.mesh, surface, ring.quads);
-  EXPECT_EQ(around.line_steps(), (Steps{{0, 1}, {0, 2}, {1, 2}}));
-  const std::vector<Vec3> cut_off = {ring.triangle.positions[0]};
-  EXPECT_EQ(around.line_between(0, 2), cut_off);
-  EXPECT_EQ(around.line_between(2, 0), cut_off);
-
-  const OnTheBoundary ends(1);
-  const fitting::VertexPlaces between(ends.mesh, surface, ends.quads);
-  EXPECT_EQ(between.line_steps(), Steps({{0, 1}}));
-  EXPECT_TRUE(between.line_between(0, 1).empty());
+/// What an edge of the result cuts off the boundary, in the order of its face.
+TEST(VertexPlaces, KnowTheBoundaryBetweenThem) {
+  for (const std::uint8_t has_corners : {std::uint8_t{0}, std::uint8_t{1}}) {
+    const OnTheBoundary c(has_corners);
+    const SurfaceDistance surface(c.mesh.positions, c.mesh.faces);
+    const fitting::VertexPlaces places(c.mesh, surface, c.quads);
+    EXPECT_EQ(places.boundary_between(2, 0), std::vector<Vec3>{c.triangle.positions[0]});
+  }
 }
 
 /// The field of a coarser mesh has the normals of the surface that the mesh stands for.

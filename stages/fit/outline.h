@@ -10,16 +10,16 @@
 
 namespace strake::fitting {
 
-/// How far edges of a result are from the feature and boundary lines that they stand for.
+/// How far boundary edges of a result are from the boundary of the surface.
 ///
-/// Distances of faces hardly tell: what an edge cuts off a bent outline, or adds to it, is narrow,
-/// and far off in its middle only. But outlines and creases are what one sees first. So such an
-/// edge counts as if its cell were as far off, some times over, as the edge is from the vertices of
-/// the line in between.
-class LineDeviation {
+/// Distances of faces hardly tell: what an edge cuts off a bent boundary, or adds to it, is narrow,
+/// and far off in its middle only. But an outline is what one sees first, and of a flat all there
+/// is. So an edge counts as if its cell were as far off, some times over, as the edge is from the
+/// vertices of the boundary between its ends.
+class Outline {
  public:
   /// \param places  where the vertices of `mesh` are; kept by reference, as `mesh` is
-  LineDeviation(const PolyMesh& mesh, const VertexPlaces& places);
+  Outline(const PolyMesh& mesh, const VertexPlaces& places);
 
   /// Sum of weight times area times squared distance.
   [[nodiscard]] double cost() const;
@@ -28,14 +28,13 @@ class LineDeviation {
 
  private:
   struct Edge {
-    std::array<Index, 2> ends;
-    Index face;    ///< one beside it
-    double cells;  ///< that its distance counts for
+    std::array<Index, 2> ends;  ///< in the order of the face
+    Index face;
   };
   struct Gap {
     std::array<Index, 2> ends;
     std::array<double, 2> shares;  ///< of the ends in the place on the edge
-    Vec3 way;                      ///< from there to the vertex of the line
+    Vec3 way;                      ///< from there to the vertex of the boundary
     double weight;                 ///< area
   };
   template <class Use>
