@@ -2,11 +2,21 @@
 
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
+#include "common/geometry/cell_error/cell_error.h"
 #include "common/geometry/nearest_on_surface.h"
 
 namespace strake {
+namespace {
+
+/// Size, in tolerances, of cells that are too small to be divided for places of the input: what is
+/// farther than one tolerance from the middle of an edge of up to two is outside the ball over it,
+/// so a vertex there hardly comes nearer.
+constexpr double kTooSmall = 1.5;
+
+}  // namespace
 
 std::vector<Target> cells_beyond(const TriMesh& mesh, const QuadMesh& quads,
                                  const std::vector<Excess>& excess, bool on_surface) {
@@ -37,6 +47,32 @@ std::vector<Target> cells_beyond(const TriMesh& mesh, const QuadMesh& quads,
   for (std::size_t f = 0; f < distance.size(); ++f) {
     if (distance[f] > 0) targets.push_back({static_cast<Index>(f), distance[f]});
   }
+  return targets;
+}
+
+std::vector<Target> large_enough(const ComparedSurfaces& surfaces, const PolyMesh& mesh,
+                                 const std::vector<Excess>& excess, double tolerance,
+                                 std::vector<Target> targets) {
+  std::vector<char> is_beyond(static_cast<std::size_t>(mesh.face_count()), 0);
+  for (const Excess& e : excess) {
+    if (e.input_face == kNone) is_beyond[e.cell] = 1;
+  }
+  std::erase_if(targets, [&](const Target& target) {
+    Eigen::AlignedBox3d box;
+    for (const Index v : mesh.face(target.face)) box.extend(surfaces.positions()[v]);
+    return is_beyond[target.face] == 0 && box.diagonal().norm() < kTooSmall * tolerance;
+  });
+  return targets;
+}
+
+std::vector<Target> cells_by_distance(const ComparedSurfaces& surfaces) {
+  const ErrorMap errors = measure_cells(surfaces);
+  std::vector<Target> targets;
+  for (std::size_t f = 0; f < errors.cells.size(); ++f) {
+    targets.push_back({static_cast<Index>(f), errors.cells[f].largest});
+  }
+  std::stable_sort(targets.begin(), targets.end(),
+                   [](const Target& a, const Target& b) { return a.distance > b.distance; });
   return targets;
 }
 

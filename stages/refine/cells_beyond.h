@@ -21,4 +21,16 @@ struct Target {
 std::vector<Target> cells_beyond(const TriMesh& mesh, const QuadMesh& quads,
                                  const std::vector<Excess>& excess, bool on_surface);
 
+/// Leaves out cells that are too small for dividing them to bring places of the input nearer: in
+/// folds it would go on for ever, and more and more faces cross.
+/// \param mesh       of the result
+/// \param excess     what the cells are to be divided for
+/// \param tolerance  model units
+std::vector<Target> large_enough(const ComparedSurfaces& surfaces, const PolyMesh& mesh,
+                                 const std::vector<Excess>& excess, double tolerance,
+                                 std::vector<Target> targets);
+
+/// All cells of a result, those that are farthest off first.
+std::vector<Target> cells_by_distance(const ComparedSurfaces& surfaces);
+
 }  // namespace strake

@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/core/error.h"
@@ -17,13 +18,13 @@
 #include "common/geometry/carry_attributes.h"
 #include "common/geometry/cell_error/cell_error.h"
 #include "common/geometry/cell_error/tolerance_check.h"
-#include "common/geometry/face_crossings/face_crossings.h"
 #include "common/geometry/nearest_on_surface.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_edges.h"
 #include "common/geometry/poly_topology/poly_topology.h"
 #include "stages/refine/cells_beyond.h"
 #include "stages/refine/changes_within.h"
+#include "stages/refine/division_faults.h"
 #include "stages/refine/edges_across_bend.h"
 #include "stages/refine/flat_faces.h"
 #include "stages/refine/inlays.h"
@@ -46,10 +47,6 @@ constexpr std::array<double, 3> kPlacesOnEdge = {0.25, 0.5, 0.75};
 constexpr std::int64_t kRoundsInSpace = 3;
 /// Rounds after which vertices are moved to the places that are left, where dividing did not help.
 constexpr std::int64_t kRoundsOfDividing = 6;
-/// Size, in tolerances, of cells that are too small to be divided for places of the input: what is
-/// farther than one tolerance from the middle of an edge of up to two is outside the ball over it,
-/// so a vertex there hardly comes nearer.
-constexpr double kTooSmall = 1.5;
 /// Rounds that may leave more places than one before. What is reached at all is reached with fewer
 /// from round to round.
 constexpr std::int64_t kRoundsInVain = 4;
@@ -57,6 +54,9 @@ constexpr std::int64_t kRoundsInVain = 4;
 constexpr std::int64_t kRoundsOfCount = 4;
 /// Times that cells are left out because of what dividing them would do.
 constexpr int kMostRetreats = 8;
+/// Share of the faces that cross once the tolerance is reached, from which on cells are divided
+/// anew without that: sheets are nearer to each other than cells are off there.
+constexpr double kTangledShare = 0.1;
 /// An edge below this share of the mean one of its cell is not divided for the others' sake: half
 /// of it would be next to nothing, and half of that after another round.
 constexpr double kShortSide = 0.05;
@@ -269,36 +269,6 @@ class Refinement {
   std::vector<Vec3> normals_;    ///< [V] sums over the faces around
 };
 
-/// All cells, those that are farthest off first.
-std::vector<Target> cells_by_distance(const ComparedSurfaces& surfaces) {
-  const ErrorMap errors = measure_cells(surfaces);
-  std::vector<Target> targets;
-  for (std::size_t f = 0; f < errors.cells.size(); ++f) {
-    targets.push_back({static_cast<Index>(f), errors.cells[f].largest});
-  }
-  std::stable_sort(targets.begin(), targets.end(),
-                   [](const Target& a, const Target& b) { return a.distance > b.distance; });
-  return targets;
-}
-
-/// Leaves out cells that are too small for dividing them to bring places of the input nearer: in
-/// folds it would go on for ever, and more and more faces cross.
-/// \param excess  what the cells are to be divided for
-std::vector<Target> large_enough(const ComparedSurfaces& surfaces, const PolyMesh& mesh,
-                                 const std::vector<Excess>& excess, double tolerance,
-                                 std::vector<Target> targets) {
-  std::vector<char> is_beyond(static_cast<std::size_t>(mesh.face_count()), 0);
-  for (const Excess& e : excess) {
-    if (e.input_face == kNone) is_beyond[e.cell] = 1;
-  }
-  std::erase_if(targets, [&](const Target& target) {
-    Eigen::AlignedBox3d box;
-    for (const Index v : mesh.face(target.face)) box.extend(surfaces.positions()[v]);
-    return is_beyond[target.face] == 0 && box.diagonal().norm() < kTooSmall * tolerance;
-  });
-  return targets;
-}
-
 /// The worst places, for a message. \param tolerance  model units
 std::string describe(std::vector<Excess> excess, const TriMesh& mesh, double tolerance) {
   std::stable_sort(excess.begin(), excess.end(),
@@ -317,113 +287,162 @@ std::string describe(std::vector<Excess> excess, const TriMesh& mesh, double tol
   return text;
 }
 
-/// Divides cells until all are within the tolerance. \return the rounds it took
-std::int64_t refine_to_tolerance(const TriMesh& mesh, Refinement& refinement,
-                                 const RefineOptions& options, Observer& observer, Report& report) {
-  const double wanted = options.tolerance->resolve(mesh.diagonal);
-  const double tolerance = (1 - kMargin) * wanted;
-  ToleranceProof proof(std::make_shared<const InputSurface>(mesh), tolerance);
-  refinement.put_back(proof.input()->distance, tolerance);
-  std::size_t last = std::numeric_limits<std::size_t>::max();  // places before the last division
-  std::vector<Excess> fewest;  // where dividing came nearest, of all rounds
-  std::int64_t fewest_round = 0;
-  QuadMesh best;  // the result then
-  for (std::int64_t round = 0;; ++round) {
-    observer.report("dividing cells", double(round) / double(options.rounds + 1));
-    refinement.drop_turned_ears();
-    const ComparedSurfaces surfaces(proof.input(), refinement.quads());
-    std::vector<Excess> excess = proof.check(surfaces);
-    report.set("refine.places_beyond", excess.size());
-    if (excess.empty()) {
-      proof.report_to(observer, kFinishing);
-      refinement.finish(proof);
-      return round;
-    }
-    if (round == 0 || excess.size() < fewest.size()) {
-      fewest = excess;
-      fewest_round = round;
-      if (!options.partly) best = refinement.quads();
-    }
-    if (round == options.rounds || round - fewest_round == kRoundsInVain) {
-      if (options.partly) return round;
-      proof.report_to(observer, kFinishing);
-      if (options.rounds > 0 && inlay_beyond(proof, fewest, refinement.crossing(), best)) {
-        report.set("refine.places_beyond", std::size_t{0});
-        refinement.take(std::move(best));
-        refinement.finish(proof);
-        return round;
-      }
-      std::vector<Vec3> places;
-      for (const Excess& e : fewest) places.push_back(e.place);
-      throw ToleranceError(
-          fmt::format(
-              "the result is farther than {:.6g} from the surface, after {} rounds of "
-              "dividing cells: {}; use a larger tolerance, closer lines or more --refine-rounds",
-              wanted, round, describe(std::move(fewest), mesh, tolerance)),
-          std::move(places));
-    }
-    const std::vector<Target> targets =
-        large_enough(surfaces, refinement.quads().mesh, excess, tolerance,
-                     cells_beyond(mesh, refinement.quads(), excess, round >= kRoundsInSpace));
-    if (targets.empty() || (round >= kRoundsOfDividing && excess.size() >= last)) {
-      refinement.reach(excess);
-      last = std::numeric_limits<std::size_t>::max();
-    } else {
-      last = excess.size();
-      refinement.divide(surfaces, targets, tolerance);
-    }
-  }
-}
-
-bool has_any(std::span<const Index> face, const std::vector<std::uint8_t>& flags) {
-  return std::ranges::any_of(
-      face, [&](Index v) { return static_cast<std::size_t>(v) < flags.size() && flags[v] != 0; });
-}
-
-/// [V] 1: a vertex of a face that crosses another one, or of a concave one with a new vertex.
-/// \param known  [vertices so far] 1: one of a face that crossed another one before; pairs of such
-///               faces do not count, nor those without a new vertex
-std::vector<std::uint8_t> vertices_of_faults(const PolyMesh& mesh,
-                                             const std::vector<std::uint8_t>& known) {
-  const auto first_new = static_cast<Index>(known.size());
-  std::vector<std::uint8_t> is_new(static_cast<std::size_t>(mesh.face_count()), 0);
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    is_new[f] = std::ranges::any_of(mesh.face(f), [&](Index v) { return v >= first_new; });
-  }
-  std::vector<std::uint8_t> faulty(mesh.positions.size(), 0);
-  const auto note = [&](Index f) {
-    for (const Index v : mesh.face(f)) faulty[v] = 1;
-  };
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    if (first_new > 0 && is_new[f] != 0 && is_concave_face(mesh.positions, mesh.face(f))) note(f);
-  }
-  for (const auto& [f, g] :
-       find_crossing_faces(mesh.positions, triangulate_faces(mesh), is_new, {})) {
-    if (has_any(mesh.face(f), known) && has_any(mesh.face(g), known)) continue;
-    note(f);
-    note(g);
-  }
-  return faulty;
-}
-
 /// Divides the first cells, leaving out those around which faces come to cross that did not before,
-/// or to be concave.
-void divide_without_faults(Refinement& refinement, const ComparedSurfaces& surfaces,
-                           std::vector<Target> targets, std::size_t wanted) {
+/// or to be concave. \return whether any is left to be divided
+bool divide_without_faults(Refinement& refinement, const ComparedSurfaces& surfaces,
+                           std::vector<Target> targets, std::size_t wanted, double tolerance) {
   const QuadMesh before = refinement.quads();
   const std::vector<std::uint8_t> known = vertices_of_faults(before.mesh, {});
-  for (int i = 0; i < kMostRetreats; ++i) {
+  for (int i = 0; i < kMostRetreats && !targets.empty(); ++i) {
     const auto last =
         targets.begin() + static_cast<std::ptrdiff_t>(std::min(wanted, targets.size()));
-    refinement.divide(surfaces, {targets.begin(), last}, std::numeric_limits<double>::infinity());
+    refinement.divide(surfaces, {targets.begin(), last}, tolerance);
     const std::vector<std::uint8_t> faulty = vertices_of_faults(refinement.quads().mesh, known);
-    if (std::ranges::find(faulty, 1) == faulty.end()) return;
+    if (std::ranges::find(faulty, 1) == faulty.end()) return true;
     refinement.take(before);
     const auto is_to_blame = [&](const Target& t) {
       return has_any(before.mesh.face(t.face), faulty);
     };
     targets.erase(std::remove_if(targets.begin(), last, is_to_blame), last);
   }
+  return false;
+}
+
+/// Adds to cells, ascending, those that faces would come to cross if only these were divided: a
+/// sheet beside, whose cells are off by more than it is away.
+void add_crossed(Refinement& refinement, const ComparedSurfaces& surfaces, double tolerance,
+                 std::vector<Target>& targets) {
+  if (targets.empty()) return;
+  const QuadMesh before = refinement.quads();
+  const std::vector<std::uint8_t> known = vertices_of_faults(before.mesh, {});
+  refinement.divide(surfaces, targets, tolerance);
+  const std::vector<std::uint8_t> faulty = vertices_of_faults(refinement.quads().mesh, known);
+  refinement.take(before);
+  std::vector<char> is_target(static_cast<std::size_t>(before.mesh.face_count()), 0);
+  for (const Target& target : targets) is_target[target.face] = 1;
+  for (Index f = 0; f < before.mesh.face_count(); ++f) {
+    if (is_target[f] != 0 || !has_any(before.mesh.face(f), faulty)) continue;
+    targets.push_back({f, tolerance});
+  }
+  std::ranges::sort(targets, {}, &Target::face);
+}
+
+/// How far dividing cells comes.
+struct Divided {
+  std::int64_t rounds = 0;
+  std::vector<Excess> left;  ///< places beyond the tolerance; none: it is reached
+};
+
+/// Divides cells until all are within the tolerance. Where that ends in vain the result is the one
+/// with the fewest places beyond, or the last one where it may miss it.
+/// \param without_faults  cells stay as they are where dividing them would make faces cross
+Divided divide_until_within(ToleranceProof& proof, Refinement& refinement,
+                            const RefineOptions& options, bool without_faults, Observer& observer) {
+  const TriMesh& mesh = proof.input()->mesh;
+  std::size_t last = std::numeric_limits<std::size_t>::max();  // places before the last division
+  std::vector<Excess> fewest;  // where dividing came nearest, of all rounds
+  std::int64_t fewest_round = 0;
+  QuadMesh best;  // the result then
+  bool is_stuck = false;
+  for (std::int64_t round = 0;; ++round) {
+    observer.report("dividing cells", double(round) / double(options.rounds + 1));
+    refinement.drop_turned_ears();
+    const ComparedSurfaces surfaces(proof.input(), refinement.quads());
+    std::vector<Excess> excess = proof.check(surfaces);
+    if (excess.empty()) return {round, {}};
+    if (round == 0 || excess.size() < fewest.size()) {
+      fewest = excess;
+      fewest_round = round;
+      if (!options.partly) best = refinement.quads();
+    }
+    if (is_stuck || round == options.rounds || round - fewest_round == kRoundsInVain) {
+      if (!options.partly) refinement.take(std::move(best));
+      return {round, options.partly ? std::move(excess) : std::move(fewest)};
+    }
+    std::vector<Target> targets =
+        large_enough(surfaces, refinement.quads().mesh, excess, proof.tolerance(),
+                     cells_beyond(mesh, refinement.quads(), excess, round >= kRoundsInSpace));
+    if (without_faults) {
+      add_crossed(refinement, surfaces, proof.tolerance(), targets);
+      is_stuck =
+          !divide_without_faults(refinement, surfaces, targets, targets.size(), proof.tolerance());
+    } else if (targets.empty() || (round >= kRoundsOfDividing && excess.size() >= last)) {
+      refinement.reach(excess);
+      last = std::numeric_limits<std::size_t>::max();
+    } else {
+      last = excess.size();
+      refinement.divide(surfaces, targets, proof.tolerance());
+    }
+  }
+}
+
+/// Brings what dividing has left within the tolerance. \return whether it could be
+bool inlay_left(ToleranceProof& proof, Refinement& refinement, const std::vector<Excess>& left,
+                Observer& observer) {
+  proof.report_to(observer, kFinishing);
+  if (left.empty()) return true;
+  QuadMesh inlaid = refinement.quads();
+  if (!inlay_beyond(proof, left, refinement.crossing(), inlaid)) return false;
+  refinement.take(std::move(inlaid));
+  return true;
+}
+
+/// Where dividing made many faces cross, which is what inlays would replace, divides anew what it
+/// can without that, and inlays what is left.
+/// \param start  before anything was divided
+/// \return the rounds it took; nothing, and the result as it was, where it is no better
+std::optional<std::int64_t> divide_untangled(ToleranceProof& proof, Refinement& refinement,
+                                             const QuadMesh& start, const RefineOptions& options,
+                                             Observer& observer) {
+  const auto crossing = [&](const QuadMesh& quads) {
+    return refinement.crossing().meeting(quads.mesh).crossing.size();
+  };
+  const QuadMesh tangled = refinement.quads();
+  const std::size_t faults = crossing(tangled);
+  if (static_cast<double>(faults) < kTangledShare * tangled.mesh.face_count()) return std::nullopt;
+  if (2 * crossing(start) > faults) return std::nullopt;
+  refinement.take(start);
+  const Divided divided = divide_until_within(proof, refinement, options, true, observer);
+  if (inlay_left(proof, refinement, divided.left, observer) &&
+      crossing(refinement.quads()) < faults) {
+    return divided.rounds;
+  }
+  refinement.take(tangled);
+  return std::nullopt;
+}
+
+/// Divides cells until all are within the tolerance, and inlays what is left.
+/// \return the rounds it took
+std::int64_t refine_to_tolerance(const TriMesh& mesh, Refinement& refinement,
+                                 const RefineOptions& options, Observer& observer, Report& report) {
+  const double wanted = options.tolerance->resolve(mesh.diagonal);
+  ToleranceProof proof(std::make_shared<const InputSurface>(mesh), (1 - kMargin) * wanted);
+  refinement.put_back(proof.input()->distance, proof.tolerance());
+  const QuadMesh start = refinement.quads();
+  Divided divided = divide_until_within(proof, refinement, options, false, observer);
+  report.set("refine.places_beyond", divided.left.size());
+  if (options.partly && !divided.left.empty()) return divided.rounds;
+  const bool may_inlay = !options.partly && options.rounds > 0;
+  std::optional<std::int64_t> rounds;
+  if (may_inlay) rounds = divide_untangled(proof, refinement, start, options, observer);
+  const bool may_do = may_inlay || divided.left.empty();
+  if (!rounds && may_do && inlay_left(proof, refinement, divided.left, observer)) {
+    rounds = divided.rounds;
+  }
+  if (rounds) {
+    report.set("refine.places_beyond", std::size_t{0});
+    refinement.finish(proof);
+    return *rounds;
+  }
+  std::vector<Vec3> places;
+  for (const Excess& e : divided.left) places.push_back(e.place);
+  throw ToleranceError(
+      fmt::format("the result is farther than {:.6g} from the surface, after {} rounds of "
+                  "dividing cells: {}; use a larger tolerance, closer lines or more "
+                  "--refine-rounds",
+                  wanted, divided.rounds,
+                  describe(std::move(divided.left), mesh, proof.tolerance())),
+      std::move(places));
 }
 
 /// Divides the worst cells until there are enough vertices. \return the rounds it took
@@ -438,7 +457,7 @@ std::int64_t refine_to_count(const TriMesh& mesh, Refinement& refinement,
     if (cells < 1) break;
     const ComparedSurfaces surfaces(input, refinement.quads());
     divide_without_faults(refinement, surfaces, cells_by_distance(surfaces),
-                          static_cast<std::size_t>(cells));
+                          static_cast<std::size_t>(cells), std::numeric_limits<double>::infinity());
   }
   return round;
 }

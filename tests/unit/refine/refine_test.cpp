@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "common/core/error.h"
@@ -359,6 +360,31 @@ TEST(RefineCells, UnfoldsFacesThatCrossWithinTheTolerance) {
   EXPECT_EQ(crossings(result.mesh), 0u);
   EXPECT_TRUE(check_tolerance(ComparedSurfaces(c.mesh, result), 0.01).empty());
   EXPECT_NEAR(total_area(result.mesh), 1, 1e-12);
+}
+
+/// A blade whose rim is thinner than cells may be off, and jagged: cells go around it.
+Case jagged_blade() {
+  Case c = grid(32, 8, [](double, double) { return 0.0; });
+  const auto place = [](const Vec3& p) {
+    const double angle = std::numbers::pi * (p.x() - 0.5);
+    const double reach = 1 + 0.04 * std::sin(40 * p.y());
+    return Vec3(reach * std::cos(angle), p.y(), 0.01 * std::sin(angle));
+  };
+  PolyMesh soup;
+  for (const Vec3& p : c.mesh.positions) soup.positions.push_back(place(p + c.mesh.origin));
+  for (const auto& face : c.mesh.faces) soup.add_face(face);
+  c.mesh = support::plain_tri_mesh(soup);
+  for (Vec3& p : c.quads.mesh.positions) p = place(p);
+  return c;
+}
+
+TEST(RefineCells, LeavesNothingCrossedAtAThinJaggedRim) {
+  const Case c = jagged_blade();
+  constexpr double kTolerance = 0.004;
+  const QuadMesh result = refined(c, within(kTolerance));
+  EXPECT_TRUE(check_tolerance(ComparedSurfaces(c.mesh, result), kTolerance).empty());
+  EXPECT_TRUE(find_crossing_faces(result.mesh.positions, triangulate_faces(result.mesh)).empty());
+  EXPECT_LT(result.mesh.vertex_count(), c.mesh.vertex_count());
 }
 
 }  // namespace
