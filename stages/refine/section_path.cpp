@@ -10,7 +10,7 @@
 namespace strake {
 namespace {
 
-constexpr int kMostFaces = 100000;
+constexpr int kMostSteps = 100000;
 
 /// The cut of a plane with the mesh, followed face by face.
 class Section {
@@ -116,7 +116,7 @@ std::optional<SurfacePoint> split_of_section(const TriMesh& mesh, const SurfaceP
       if (!section.cuts(h)) continue;
       Way way{{from}, {}, 0};
       way.go(face, section.cut(h));
-      for (int step = 0; step < kMostFaces && way.length <= longest; ++step) {
+      for (int step = 0; step < kMostSteps && way.length <= longest; ++step) {
         if (mesh.is_boundary(h)) break;
         const Index entered = TriMesh::face_of(mesh.twin[h]);
         if (contains(ends, entered)) {
