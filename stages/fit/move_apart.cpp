@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <set>
 #include <vector>
@@ -30,7 +31,8 @@ class MoveApart {
         places_(places),
         faces_of_(mesh.positions.size()),
         tree_(boxes()),
-        is_moved_(static_cast<std::size_t>(mesh.face_count()), 0) {
+        is_moved_(static_cast<std::size_t>(mesh.face_count()), 0),
+        in_vain_(mesh.positions.size()) {
     for (Index f = 0; f < mesh.face_count(); ++f) {
       for (const Index v : mesh.face(f)) faces_of_[v].push_back(f);
     }
@@ -69,33 +71,40 @@ class MoveApart {
     return placed_face(places_.positions(), mesh_.face(face));
   }
 
-  /// The faces that those around a vertex may come to touch when it moves by up to `reach`.
-  [[nodiscard]] std::vector<PlacedFace> faces_near(Index v, double reach) const {
-    BoxTree::Box around(places_.positions()[v]);
-    around.min().array() -= reach;
-    around.max().array() += reach;
+  [[nodiscard]] BoxTree::Box box_around(Index v) const {
+    BoxTree::Box around;
     for (const Index f : faces_of_[v]) around.extend(box(f));
+    return around;
+  }
+
+  /// Other faces than those around a vertex that reach into a box.
+  [[nodiscard]] std::vector<PlacedFace> faces_in(const BoxTree::Box& within, Index v) const {
     std::vector<PlacedFace> faces;
     const auto add = [&](Index f) {
       const bool is_around = std::ranges::find(faces_of_[v], f) != faces_of_[v].end();
-      if (!is_around && box(f).intersects(around)) faces.push_back(placed(f));
+      if (!is_around && box(f).intersects(within)) faces.push_back(placed(f));
     };
     // The tree holds the places at the start: what has moved since is looked at in any case.
     for (const Index f : moved_) add(f);
-    tree_.visit_touching(around, [&](Index f) {
+    tree_.visit_touching(within, [&](Index f) {
       if (is_moved_[f] == 0) add(f);
     });
     return faces;
   }
 
-  /// Pairs of crossing faces of which one at least has this vertex.
-  [[nodiscard]] std::size_t count_around(Index v, const std::vector<PlacedFace>& others) const {
+  /// Pairs of crossing faces of which one at least has this vertex; `most` where there are more.
+  [[nodiscard]] std::size_t count_around(Index v, const std::vector<PlacedFace>& others,
+                                         std::size_t most) const {
     std::size_t count = 0;
     std::vector<PlacedFace> own;
     for (const Index f : faces_of_[v]) {
       const PlacedFace face = placed(f);
-      const auto crosses = [&](const PlacedFace& other) { return faces_cross(face, other); };
-      count += std::ranges::count_if(own, crosses) + std::ranges::count_if(others, crosses);
+      for (const auto& some : {std::cref(own), std::cref(others)}) {
+        for (const PlacedFace& other : some.get()) {
+          if (count == most) return count;
+          if (faces_cross(face, other)) ++count;
+        }
+      }
       own.push_back(face);
     }
     return count;
@@ -132,11 +141,34 @@ class MoveApart {
     return ways;
   }
 
+  /// What was looked at when a vertex could not be moved for the good.
+  struct InVain {
+    double rise = -1;         ///< none so far
+    BoxTree::Box within;      ///< all that matters
+    std::size_t changes = 0;  ///< that had been made by then
+  };
+
+  /// Whether it would be in vain again, as nothing has changed there.
+  [[nodiscard]] bool is_as_before(const InVain& last, double rise) const {
+    return last.rise == rise &&
+           std::none_of(changed_.begin() + static_cast<std::ptrdiff_t>(last.changes),
+                        changed_.end(),
+                        [&](const BoxTree::Box& box) { return box.intersects(last.within); });
+  }
+
   /// Moves a vertex to where the faces around it cross the fewest others. \return whether it did
   bool improve(Index v, double rise) {
+    if (is_as_before(in_vain_[v], rise)) return false;
     const Ways ways = ways_from(v);
-    const std::vector<PlacedFace> others = faces_near(v, kShares.back() * ways.longest);
-    const std::size_t before = count_around(v, others);
+    // What the faces around may come to touch.
+    BoxTree::Box within = box_around(v);
+    const double reach = kShares.back() * ways.longest;
+    within.extend(places_.positions()[v] - Vec3::Constant(reach));
+    within.extend(places_.positions()[v] + Vec3::Constant(reach));
+    in_vain_[v] = {rise, within, changed_.size()};
+    const std::vector<PlacedFace> others = faces_in(within, v);
+    const std::size_t before =
+        count_around(v, others, std::numeric_limits<std::size_t>::max());
     if (before == 0) return false;
     const VertexPlaces::State start = places_.state(v);
     const double highest = std::abs(places_.height(v)) + rise * ways.shortest_edge;
@@ -151,14 +183,17 @@ class MoveApart {
                                 [&](Index f) { return guard_.is_spoilt(places_, f); })) {
           continue;
         }
-        const std::size_t count = count_around(v, others);
-        if (count >= fewest) continue;
+        const std::size_t count = count_around(v, others, fewest);
+        if (count == fewest) continue;
         fewest = count;
         best = places_.state(v);
       }
     }
-    places_.restore(v, best);
+    places_.restore(v, start);
     if (fewest == before) return false;
+    changed_.push_back(box_around(v));
+    places_.restore(v, best);
+    changed_.push_back(box_around(v));
     for (const Index f : faces_of_[v]) {
       if (is_moved_[f] == 0) moved_.push_back(f);
       is_moved_[f] = 1;
@@ -173,6 +208,8 @@ class MoveApart {
   BoxTree tree_;                              ///< of the faces at the start
   std::vector<Index> moved_;                  ///< faces
   std::vector<std::uint8_t> is_moved_;        ///< [F] whether it is one of them
+  std::vector<BoxTree::Box> changed_;         ///< of faces that moved, before and after, in turn
+  std::vector<InVain> in_vain_;               ///< [V]
 };
 
 }  // namespace

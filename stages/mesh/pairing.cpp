@@ -1,6 +1,9 @@
 #include "stages/mesh/pairing.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
 #include "stages/mesh/cell_change.h"
@@ -55,20 +58,25 @@ class Pairing {
     return count;
   }
   /// Everything worth doing, the best first.
-  std::vector<Change> changes() {
-    std::vector<Change> found;
+  [[nodiscard]] std::vector<Change> changes() const {
+    std::vector<Index> odd_cells;  // a dart of each
     graph_.for_each_cell([&](Index d, const DartLoop& cell) {
-      if (cell.size() != 3 && cell.size() != 5) return;
-      for (const Index out : cell) add_chords(out, found);
-      std::vector<Index> way = {d};
-      add_patches(way, found);
+      if (cell.size() == 3 || cell.size() == 5) odd_cells.push_back(d);
     });
+    std::vector<std::vector<Change>> of_cell(odd_cells.size());
+    tbb::parallel_for(std::size_t{0}, odd_cells.size(), [&](std::size_t i) {
+      for (const Index out : graph_.cell(odd_cells[i])) add_chords(out, of_cell[i]);
+      std::vector<Index> way = {odd_cells[i]};
+      add_patches(way, of_cell[i]);
+    });
+    std::vector<Change> found;
+    for (std::vector<Change>& some : of_cell) std::ranges::move(some, std::back_inserter(found));
     std::stable_sort(found.begin(), found.end(),
                      [](const Change& a, const Change& b) { return a.gain > b.gain; });
     return found;
   }
 
-  void add_chords(Index out, std::vector<Change>& found) {
+  void add_chords(Index out, std::vector<Change>& found) const {
     const std::optional<Chord> chord = follow_chord(graph_, out, kLongestChord);
     if (!chord) return;
     // Both ways along a chord are found; boundaries are reached from one end only.
@@ -83,7 +91,7 @@ class Pairing {
   }
 
   /// Patches that start with an odd face, go on over quads and end at another odd face.
-  void add_patches(std::vector<Index>& way, std::vector<Change>& found) {
+  void add_patches(std::vector<Index>& way, std::vector<Change>& found) const {
     for (const Index out : graph_.cell(way.back())) {
       const Index across = DartGraph::opposite(out);
       if (graph_.is_barrier(out) || graph_.is_hole(across)) continue;

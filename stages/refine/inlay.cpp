@@ -1,5 +1,7 @@
 #include "stages/refine/inlay.h"
 
+#include <tbb/parallel_for.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -130,19 +132,17 @@ class InlayCutter::Cover {
       }
     }
     is_inside_.assign(part_.positions.size(), 0);
-    for (std::size_t v = 0; v < is_inside_.size(); ++v) {
+    tbb::parallel_for(std::size_t{0}, is_inside_.size(), [&](std::size_t v) {
       const Vec3& p = part_.positions[v];
-      const auto distance = [&](std::uint8_t is_of_patch) {
-        return nearest_
-            ->closest_if(p, std::numeric_limits<double>::infinity(),
-                         [&](Index t) {
-                           return is_of_patch_[t] == is_of_patch && normals_[t].dot(normal[v]) > 0;
-                         })
-            .distance;
+      const auto nearest_within = [&](double reach, std::uint8_t is_of_patch) {
+        return nearest_->closest_if(p, reach, [&](Index t) {
+          return is_of_patch_[t] == is_of_patch && normals_[t].dot(normal[v]) > 0;
+        });
       };
-      const double inside = distance(1);
-      is_inside_[v] = std::hypot(inside, margin) < distance(0) ? 1 : 0;
-    }
+      const double inside = nearest_within(std::numeric_limits<double>::infinity(), 1).distance;
+      const double reach = std::hypot(inside, margin);
+      is_inside_[v] = reach < nearest_within(reach, 0).distance ? 1 : 0;
+    });
   }
 
   /// The most faces over the patch that are joined by edges.
@@ -241,18 +241,39 @@ bool InlayCutter::add_band(std::span<const Index> outer, std::span<const Index> 
                            bool is_closed, Inlay& inlay) const {
   if (outer.size() * inner.size() > kMostBandEdges) return false;
   if (is_closed && std::min(outer.size(), inner.size()) < 3) return false;
+  struct End {
+    SurfacePoint foot;
+    Vec3 place;
+  };
+  std::vector<End> outer_ends;
+  for (const Index corner : outer) {
+    const Index vertex = inlay.outline[corner];
+    outer_ends.push_back({foot_of(vertex), surfaces_.positions()[vertex]});
+  }
+  std::vector<End> inner_ends;
+  for (const Index corner : inner) {
+    const SurfacePoint& point = inlay.points[corner - static_cast<Index>(inlay.outline.size())];
+    inner_ends.push_back({point, place_of(surfaces_.mesh(), point)});
+  }
+  const auto square = [&](std::size_t i, std::size_t j) {
+    return (outer_ends[i].place - inner_ends[j].place).squaredNorm();
+  };
+  const auto is_along = [&](std::size_t i, std::size_t j) {
+    return lines_.has_along(outer_ends[i].foot, inner_ends[j].foot);
+  };
   const auto cost = [&](std::size_t i, std::size_t j) {
-    const Index vertex = inlay.outline[outer[i]];
-    const SurfacePoint& point = inlay.points[inner[j] - static_cast<Index>(inlay.outline.size())];
-    const Vec3& p = surfaces_.positions()[vertex];
-    const Vec3 q = place_of(surfaces_.mesh(), point);
-    const double off = surfaces_.input().closest(0.5 * (p + q)).distance;
-    const double sum = (p - q).squaredNorm() + kOffCost * off * off;
-    return lines_.has_along(foot_of(vertex), point) ? kAlongLine * sum : sum;
+    const Vec3 middle = 0.5 * (outer_ends[i].place + inner_ends[j].place);
+    const double off = surfaces_.input().closest(middle).distance;
+    const double sum = square(i, j) + kOffCost * off * off;
+    return is_along(i, j) ? kAlongLine * sum : sum;
+  };
+  const auto least = [&](std::size_t i, std::size_t j) {
+    return is_along(i, j) ? 0.0 : square(i, j);
   };
   std::set<std::array<Index, 2>> across;
-  for (std::array<Index, 3> triangle : is_closed ? fill_band(outer.size(), inner.size(), cost)
-                                                 : fill_strip(outer.size(), inner.size(), cost)) {
+  for (std::array<Index, 3> triangle : is_closed
+           ? fill_band(outer.size(), inner.size(), cost, least)
+           : fill_strip(outer.size(), inner.size(), cost, least)) {
     for (Index& v : triangle) {
       const auto at = static_cast<std::size_t>(v);
       v = at < outer.size() ? outer[at] : inner[at - outer.size()];

@@ -1,11 +1,15 @@
 #include "stages/refine/inlays.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <cstdint>
 #include <iterator>
 #include <limits>
 #include <numeric>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "common/geometry/cell_error/compared_surfaces.h"
@@ -34,6 +38,8 @@ constexpr std::size_t kFewCells = 250;
 constexpr double kMostWhole = 0.1;
 /// Cells in all of places where no inlay could be cut, after which none grows for that any more.
 constexpr std::size_t kMostInVain = 40000;
+/// Inlays that are cut at the same time, before these are added up.
+constexpr std::size_t kCutAtOnce = 16;
 /// Times that inlays grow, for faces that cross, without fewer faults than ever before.
 constexpr int kInlaysInVain = 4;
 /// Where more cells are bad, it is not for single places.
@@ -47,6 +53,7 @@ struct Site {
   int times_bad = 0;       ///< in turn
   Inlay inlay = {};
   std::size_t cut_for = 0;  ///< how many cells there were when it was cut
+  std::size_t in_vain = 0;  ///< cells in all of places where it could not be cut the last time
 };
 
 /// Inlays that grow until a result is as it should be with them.
@@ -183,21 +190,25 @@ class Inlays {
            site.cells.size() > std::max(kFewCells, kMostCellsPerFault * site.faults);
   }
 
-  /// Cuts the inlay of a site, which grows as long as there is none.
-  std::optional<Inlay> cut_growing(Site& site) {
-    if (is_out_of_proportion(site)) return std::nullopt;
+  /// Cuts the inlay of a site, which grows as long as there is none. \return whether there is one
+  bool cut_growing(Site& site) const {
+    site.in_vain = 0;
+    if (is_out_of_proportion(site)) return false;
     std::optional<Inlay> inlay = cutter_.cut(site.cells);
     for (std::size_t before = 0; !inlay && site.cells.size() > before;) {
       before = site.cells.size();
-      cells_in_vain_ += before;
+      site.in_vain += before;
       widen(site);
       if (is_out_of_proportion(site) || site.cells.size() > goal_.cells ||
-          cells_in_vain_ > kMostInVain) {
+          cells_in_vain_ + site.in_vain > kMostInVain) {
         break;
       }
       inlay = cutter_.cut(site.cells);
     }
-    return inlay;
+    if (!inlay) return false;
+    site.inlay = *std::move(inlay);
+    site.cut_for = site.cells.size();
+    return true;
   }
 
   /// Cuts the inlays of all sites, which grow where that takes it; no two of them touch. Sites are
@@ -205,16 +216,21 @@ class Inlays {
   /// \return false where they may not
   bool cut() {
     do {
+      std::vector<Site*> left;
       for (Site& site : sites_) {
-        if (site.cells.size() == site.cut_for) continue;
-        if (std::optional<Inlay> inlay = cut_growing(site)) {
-          site.inlay = std::move(*inlay);
-          site.cut_for = site.cells.size();
-        } else if (!goal_.uncrosses) {
-          return false;
-        } else {
-          for (const Index cell : site.cells) is_given_up_[cell] = 1;
-          site.cells.clear();
+        if (site.cells.size() != site.cut_for) left.push_back(&site);
+      }
+      for (std::size_t first = 0; first < left.size(); first += kCutAtOnce) {
+        const std::span some = std::span(left).subspan(first, std::min(kCutAtOnce, left.size() - first));
+        std::vector<std::uint8_t> is_cut(some.size());
+        tbb::parallel_for(std::size_t{0}, some.size(),
+                          [&](std::size_t i) { is_cut[i] = cut_growing(*some[i]) ? 1 : 0; });
+        for (std::size_t i = 0; i < some.size(); ++i) {
+          cells_in_vain_ += some[i]->in_vain;
+          if (is_cut[i] != 0) continue;
+          if (!goal_.uncrosses) return false;
+          for (const Index cell : some[i]->cells) is_given_up_[cell] = 1;
+          some[i]->cells.clear();
         }
       }
       std::erase_if(sites_, [](const Site& site) { return site.cells.empty(); });

@@ -1,22 +1,31 @@
 #pragma once
 
 #include <OpenMesh/Core/System/omstream.hh>
+#include <mutex>
 
 namespace strake {
 
-/// While it lives OpenMesh does not write to the error stream of the process what faces it refuses:
-/// whoever adds them looks whether they are valid.
+/// While one lives, in any thread, OpenMesh does not write to the error stream of the process what
+/// faces it refuses: whoever adds them looks whether they are valid.
 class OpenMeshSilence {
  public:
-  OpenMeshSilence() : was_enabled_(omerr().is_enabled()) { omerr().disable(); }
+  OpenMeshSilence() {
+    const std::lock_guard lock(mutex);
+    if (living++ > 0) return;
+    was_enabled = omerr().is_enabled();
+    omerr().disable();
+  }
   OpenMeshSilence(const OpenMeshSilence&) = delete;
   OpenMeshSilence& operator=(const OpenMeshSilence&) = delete;
   ~OpenMeshSilence() {
-    if (was_enabled_) omerr().enable();
+    const std::lock_guard lock(mutex);
+    if (--living == 0 && was_enabled) omerr().enable();
   }
 
  private:
-  bool was_enabled_;
+  static inline std::mutex mutex;
+  static inline int living = 0;
+  static inline bool was_enabled = false;  ///< before the first of those that live
 };
 
 }  // namespace strake

@@ -5,6 +5,7 @@
 #include <map>
 #include <queue>
 #include <set>
+#include <unordered_set>
 #include <utility>
 
 #include "common/core/error.h"
@@ -38,17 +39,23 @@ SurfacePoint point_of_face(const TriMesh& mesh, Index face, const Vec3& p) {
 /// Faces joined to some by others that may reach into a box, and what these enclose.
 std::set<Index> faces_in(const TriMesh& mesh, const std::vector<Index>& faces,
                          const Eigen::AlignedBox3d& box, std::size_t most) {
-  std::set<Index> seen(faces.begin(), faces.end());
-  std::vector<Index> queue(seen.begin(), seen.end());
-  for (std::size_t i = 0; i < queue.size() && seen.size() <= most; ++i) {
+  std::vector<Index> queue = faces;
+  std::sort(queue.begin(), queue.end());
+  queue.erase(std::unique(queue.begin(), queue.end()), queue.end());
+  std::unordered_set<Index> is_seen(queue.begin(), queue.end());
+  for (std::size_t i = 0; i < queue.size() && queue.size() <= most; ++i) {
     for (Index h = 3 * queue[i]; h < 3 * queue[i] + 3; ++h) {
       if (mesh.is_boundary(h)) continue;
       const Index g = TriMesh::face_of(mesh.twin[h]);
+      if (is_seen.contains(g)) continue;
       Eigen::AlignedBox3d around;
       for (const Index v : mesh.faces[g]) around.extend(mesh.positions[v]);
-      if (around.intersects(box) && seen.insert(g).second) queue.push_back(g);
+      if (!around.intersects(box)) continue;
+      is_seen.insert(g);
+      queue.push_back(g);
     }
   }
+  std::set<Index> seen(queue.begin(), queue.end());
   // The boundary is no way out: what rises there above the box is a part of it, too.
   add_enclosed(seen, [&](Index f, const auto& visit) {
     for (Index h = 3 * f; h < 3 * f + 3; ++h) {

@@ -1,5 +1,7 @@
 #include "stages/refine/thinning.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -91,9 +93,9 @@ void thin_while_few(const InlayHost& host, double distance, Index most,
   std::vector<Inlay> best = inlays;
   int in_vain = 0;
   for (int time = 0; !changed.empty() && in_vain < kThinningsInVain; ++time) {
-    for (const std::size_t s : changed) {
-      inlays[s].faces = thinnings[s].faces(distance);
-    }
+    tbb::parallel_for(std::size_t{0}, changed.size(), [&](std::size_t i) {
+      inlays[changed[i]].faces = thinnings[changed[i]].faces(distance);
+    });
     const Inlaid now = host.with(inlays);
     const Faults bad = host.beyond(now);
     std::vector<Index> crossing = host.crossing(now);

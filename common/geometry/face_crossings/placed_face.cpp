@@ -1,11 +1,17 @@
 #include "common/geometry/face_crossings/placed_face.h"
 
-#include <algorithm>
-
 #include "common/geometry/face_crossings/face_crossings.h"
 #include "common/geometry/poly_topology/face_shape.h"
 
 namespace strake {
+namespace {
+
+BoxTree::Box box_around(const std::array<Vec3, 3>& triangle) {
+  BoxTree::Box box(triangle[0]);
+  return box.extend(triangle[1]).extend(triangle[2]);
+}
+
+}  // namespace
 
 PlacedFace placed_face(const std::vector<Vec3>& positions, std::span<const Index> polygon) {
   PlacedFace placed;
@@ -19,10 +25,14 @@ PlacedFace placed_face(const std::vector<Vec3>& positions, std::span<const Index
 }
 
 bool faces_cross(const PlacedFace& a, const PlacedFace& b) {
-  return a.box.intersects(b.box) && std::ranges::any_of(a.triangles, [&](const auto& one) {
-           return std::ranges::any_of(
-               b.triangles, [&](const auto& other) { return triangles_cross(one, other); });
-         });
+  if (!a.box.intersects(b.box)) return false;
+  for (const std::array<Vec3, 3>& one : a.triangles) {
+    const BoxTree::Box box = box_around(one);
+    for (const std::array<Vec3, 3>& other : b.triangles) {
+      if (box.intersects(box_around(other)) && triangles_cross(one, other)) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace strake

@@ -154,6 +154,26 @@ TEST(FillBandBetween, TakesTheEdgesThatCostLeast) {
   EXPECT_TRUE(is_taken);
 }
 
+TEST(FillBandBetween, AsksForNoCostThatCannotMatter) {
+  const std::vector<Vec3> outer = polygon(60, 2, 0.3);
+  const std::vector<Vec3> inner = polygon(45, 1.7, 2.1);
+  const auto square = [&](std::size_t i, std::size_t j) {
+    return (outer[i] - inner[j]).squaredNorm();
+  };
+  std::set<std::array<std::size_t, 2>> asked;
+  const auto cost = [&](std::size_t i, std::size_t j) {
+    asked.insert({i, j});
+    return square(i, j) * (1 + double((7 * i + 5 * j) % 11));
+  };
+  const auto triangles = fill_band(60, 45, cost);
+  EXPECT_EQ(asked.size(), 60u * 45u);
+  const auto path = fill_strip(60, 45, cost);
+  asked.clear();
+  EXPECT_EQ(fill_band(60, 45, cost, square), triangles);
+  EXPECT_LT(asked.size(), 60u * 45u / 2);
+  EXPECT_EQ(fill_strip(60, 45, cost, square), path);
+}
+
 TEST(FillStrip, CoversWhatIsBetweenTwoPathsOnce) {
   const auto outer = [](std::size_t i) { return Vec3(double(i), 0, 0); };
   const auto inner = [](std::size_t j) { return Vec3(0.5 * double(j), 1, 0); };
