@@ -48,6 +48,7 @@ class Redrawing {
       remove_loose_ends();
       EdgeSet next;  // what cannot be filled takes in the cells around it
       for (const std::vector<Index>& gap : gaps()) {
+        remove_within(gap);
         if (fill(gap)) {
           ++filled;
           continue;
@@ -122,6 +123,18 @@ class Redrawing {
       found.push_back(std::move(gap));
     }
     return found;
+  }
+
+  /// Removes edges that have a gap on both sides: they enclose nothing.
+  void remove_within(const std::vector<Index>& gap) {
+    const std::set<Index> cells(gap.begin(), gap.end());
+    for (const Index cell : gap) {
+      for (const Index d : graph_.cell(cell)) {
+        if (cells.contains(parts_.cell_of(DartGraph::opposite(d))) && parts_.is_inside(part_, d)) {
+          removed_.insert(even(d));
+        }
+      }
+    }
   }
 
   /// The darts that follow each other along the border of a gap, the gap on their left.

@@ -20,18 +20,23 @@ namespace strake {
 namespace {
 
 constexpr Index kSize = 9;
+constexpr Index kLargeSize = 30;
 
 /// A grid of unit squares at z = 0, each cut in two.
-TriMesh grid() {
+/// \param size       nodes along a side
+/// \param has_holes  every ninth square is left out
+TriMesh grid(Index size = kSize, bool has_holes = false) {
+  const auto is_hole = [&](Index x, Index y) { return has_holes && x % 3 == 2 && y % 3 == 2; };
   PolyMesh soup;
-  for (Index y = 0; y < kSize; ++y) {
-    for (Index x = 0; x < kSize; ++x) soup.positions.emplace_back(x, y, 0);
+  for (Index y = 0; y < size; ++y) {
+    for (Index x = 0; x < size; ++x) soup.positions.emplace_back(x, y, 0);
   }
-  for (Index y = 0; y + 1 < kSize; ++y) {
-    for (Index x = 0; x + 1 < kSize; ++x) {
-      const Index v = y * kSize + x;
-      soup.add_face(std::array<Index, 3>{v, v + 1, v + 1 + kSize});
-      soup.add_face(std::array<Index, 3>{v, v + 1 + kSize, v + kSize});
+  for (Index y = 0; y + 1 < size; ++y) {
+    for (Index x = 0; x + 1 < size; ++x) {
+      if (is_hole(x, y)) continue;
+      const Index v = y * size + x;
+      soup.add_face(std::array<Index, 3>{v, v + 1, v + 1 + size});
+      soup.add_face(std::array<Index, 3>{v, v + 1 + size, v + size});
     }
   }
   TriMesh mesh = support::plain_tri_mesh(soup);
@@ -114,6 +119,33 @@ TEST(RedrawFlats, UntanglesWhateverIsTurned) {
     EXPECT_EQ(count(graph.graph()).parts, 1);
   }
   EXPECT_GT(tangled, 20);
+}
+
+// Where a gap takes in what is around it, edges between holes come to have it on both sides.
+TEST(RedrawFlats, FillsGapsBetweenManyHoles) {
+  const TriMesh mesh = grid(kLargeSize, true);
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> shift(-12, 12);
+  for (int trial = 0; trial < 10; ++trial) {
+    PolygonGraph graph = triangle_cells(mesh);
+    const DartGraph& g = graph.graph();
+    for (Index d = 0; d < g.dart_count(); d += 2) {
+      if (!g.is_alive(d) || graph.is_barrier(d) || random() % 3 != 0) continue;
+      const Index other = DartGraph::opposite(d);
+      if (graph.name_of_cell(d) == graph.name_of_cell(other)) continue;
+      if (graph.degree(d) > 2 && graph.degree(other) > 2) graph.remove_edge(d);
+    }
+    for (int i = 0; i < 64; ++i) {
+      const auto n = static_cast<Index>(random() % graph.node_count());
+      if (graph.rank(n) != NodeRank::line) continue;
+      const Vec3 moved = graph.position(n) + Vec3(shift(random), shift(random), 0);
+      graph.move(n, moved.cwiseMax(0.1).cwiseMin(kLargeSize - 1.1).cwiseProduct(Vec3(1, 1, 0)));
+    }
+    EXPECT_GT(crossing_edges(graph, false), 0);
+    redraw_flats(graph);
+    EXPECT_EQ(crossing_edges(graph, false), 0) << "trial " << trial;
+    EXPECT_TRUE(is_consistent(graph.graph()));
+  }
 }
 
 TEST(RedrawFlats, LeavesWhatIsBent) {
