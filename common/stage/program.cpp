@@ -189,8 +189,8 @@ bool is_number(const std::string& word) {
   return !word.empty() && word.find_first_not_of("0123456789.%") == std::string::npos;
 }
 
-/// What is wrong with a number behind a flag of one letter, taken for an option that begins with it;
-/// or "".
+/// What is wrong with a number behind a flag of one letter, taken for an option that begins with
+/// it; or "".
 std::string value_of_flag(const CLI::App& command, const std::vector<CommandWord>& options,
                           const std::string& word) {
   if (!is_number(word)) return "";
