@@ -12,6 +12,7 @@
 #include "stages/import/border_contacts.h"
 #include "stages/import/gaps.h"
 #include "stages/import/put_into_edges.h"
+#include "stages/import/sheet_sides.h"
 #include "stages/import/weld.h"
 
 namespace strake::import {
@@ -27,6 +28,7 @@ struct Part {
   std::array<Index, 2> ends;      ///< vertices in these
   std::array<bool, 2> is_curved;  ///< at an end, which a vertex is to be put to
   Index halfedge;
+  bool is_forward;  ///< from the first end to the second is the way of the half-edge
   bool is_whole;
 };
 
@@ -51,13 +53,15 @@ std::vector<Part> find_parts(Soup& soup, const std::vector<Index>& border,
     End last = end_of_edge(soup.from(h));
     bool is_whole = true;
     const auto add_to = [&](const End& end) {
-      const End& low = end.place < last.place ? end : last;
-      const End& high = end.place < last.place ? last : end;
+      const bool is_forward = last.place < end.place;
+      const End& low = is_forward ? last : end;
+      const End& high = is_forward ? end : last;
       if (low.place != high.place) {
         parts.push_back({{low.place, high.place},
                          {low.vertex, high.vertex},
                          {low.is_curved, high.is_curved},
                          h,
+                         is_forward,
                          is_whole});
       }
       last = end;
@@ -83,6 +87,8 @@ struct PairParts {
   std::array<Index, 2> places;    ///< of its ends
   std::array<bool, 2> is_curved;  ///< at an end: on one side
   bool has_part;                  ///< that is no whole edge
+  bool is_of_two;                 ///< no more sheets meet there
+  SheetSides::Joint faces;
 };
 
 /// Parts that are to be joined, in pairs.
@@ -98,8 +104,9 @@ class PartPairs {
     }
   }
 
-  /// Those of chains with a part that is no whole edge, and that are neither slits nor end where
-  /// borders are as far apart as they bulge. Other chains are left to `sew_gaps`.
+  /// Those of chains with a part that is no whole edge, that are no slits, leave the surface two
+  /// sides, and do not end where borders are as far apart as they bulge. Other chains are left to
+  /// `sew_gaps`.
   [[nodiscard]] std::vector<EdgePair> joined() const {
     const std::vector<Index> chain = find_chains(pairs_);
     std::vector<std::uint8_t> is_left = find_slits(soup_, pairs_, chain, diagonal_);
@@ -110,6 +117,7 @@ class PartPairs {
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
       if (is_divided[chain[i]] == 0) is_left[i] = 1;
     }
+    leave_one_sided_chains(chain, is_left);
     leave_loose_chains(chain, is_left);
     std::vector<EdgePair> result;
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
@@ -127,7 +135,7 @@ class PartPairs {
       return gap_of(parts[0], part) <= kCoincident * diagonal_;
     };
     if (std::all_of(parts.begin(), parts.end(), is_beside)) {
-      for (std::size_t i = 1; i < parts.size(); ++i) add(parts[i - 1], parts[i]);
+      for (std::size_t i = 1; i < parts.size(); ++i) add(parts[i - 1], parts[i], false);
     } else if (parts.size() <= kManySheets) {
       for (std::size_t i = 0; i < parts.size(); ++i) {
         const std::size_t j = nearest_by_far(parts, i);
@@ -155,11 +163,13 @@ class PartPairs {
     return edge_pair(soup_, a.ends, b.ends).gap;
   }
 
-  void add(const Part& a, const Part& b) {
+  void add(const Part& a, const Part& b, bool is_of_two = true) {
     EdgePair pair = edge_pair(soup_, a.ends, b.ends);
     const PairParts parts{a.places,
                           {a.is_curved[0] || b.is_curved[0], a.is_curved[1] || b.is_curved[1]},
-                          !a.is_whole || !b.is_whole};
+                          !a.is_whole || !b.is_whole,
+                          is_of_two,
+                          {a.halfedge / 3, b.halfedge / 3, a.is_forward != b.is_forward}};
     const double most =
         std::min(kGapOverPart * std::min(length(soup_, a), length(soup_, b)), kWidest * diagonal_);
     for (int k = 0; k < 2; ++k) {
@@ -171,6 +181,32 @@ class PartPairs {
     if (lie_on_top(soup_, a.halfedge, b.halfedge, diagonal_, pair)) return;
     pairs_.push_back(pair);
     parts_.push_back(parts);
+  }
+
+  /// Leaves chains that would leave the surface one side only, those of wide gaps first.
+  void leave_one_sided_chains(const std::vector<Index>& chain,
+                              std::vector<std::uint8_t>& is_left) const {
+    std::vector<double> width(pairs_.size(), 0);  // at the first pair of each chain
+    std::vector<Index> order;
+    for (Index i = 0; i < static_cast<Index>(pairs_.size()); ++i) {
+      width[chain[i]] = std::max(width[chain[i]], pairs_[i].gap);
+      if (is_left[i] == 0) order.push_back(i);
+    }
+    if (order.empty()) return;
+    std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+      return std::tuple(width[chain[a]], chain[a], a) < std::tuple(width[chain[b]], chain[b], b);
+    });
+    SheetSides sides(soup_);
+    for (std::size_t i = 0; i < order.size();) {
+      std::size_t end = i;
+      std::vector<SheetSides::Joint> joints;
+      for (; end < order.size() && chain[order[end]] == chain[order[i]]; ++end) {
+        const PairParts& parts = parts_[order[end]];
+        if (parts.is_of_two) joints.push_back(parts.faces);
+      }
+      const bool is_joined = sides.join(joints);
+      for (; i < end; ++i) is_left[order[i]] = is_joined ? 0 : 1;
+    }
   }
 
   /// Leaves chains that end at a place where they are as far apart as borders bulge, with those

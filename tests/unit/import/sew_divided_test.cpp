@@ -259,6 +259,31 @@ TEST(SewDivided, PatchesThatAreTurnedOver) {
   EXPECT_GT(count(result.report, "repairs.flipped_faces"), 0);
 }
 
+TEST(SewDivided, NoSurfaceOfOneSideIsMade) {
+  // A band whose ends meet, turned by half a turn or a whole one, and are divided differently.
+  const auto band = [](int half_turns) {
+    PolyMesh mesh = shapes::grid(60, 4, [](double, double) { return 0.0; });
+    PolyMesh last = shapes::grid(1, 7, [](double, double) { return 0.0; });
+    for (Vec3& p : mesh.positions) p.x() *= 60.0 / 61;
+    for (Vec3& p : last.positions) p.x() = (60 + p.x()) / 61;
+    mesh = support::together(mesh, last);
+    for (Vec3& p : mesh.positions) {
+      const double turn = std::numbers::pi * half_turns * p.x();
+      const double r = 2 + (p.y() - 0.5) * std::cos(turn);
+      const double angle = 2 * std::numbers::pi * p.x();
+      p = Vec3(r * std::cos(angle), r * std::sin(angle), (p.y() - 0.5) * std::sin(turn));
+    }
+    return imported(mesh);
+  };
+  const ImportResult whole = band(2);
+  EXPECT_EQ(census(whole.mesh).boundary_loops, 2);
+  EXPECT_EQ(count(whole.report, "repairs.non_orientable_cuts"), 0);
+  const ImportResult half = band(1);
+  EXPECT_EQ(census(half.mesh).components, 1);
+  EXPECT_EQ(census(half.mesh).boundary_loops, 1);
+  EXPECT_EQ(count(half.report, "repairs.non_orientable_cuts"), 0);
+}
+
 /// Two sheets, 1 x 1, beside each other, `gap(y)` apart, of 8 and 5 edges along it.
 template <typename Gap>
 PolyMesh pair_of_sheets(const Gap& gap) {
