@@ -185,12 +185,36 @@ std::string command_meant(const CLI::App& app, const std::string& word,
   return fmt::format("; did you mean the program '{}-{}'?", app.get_name(), near);
 }
 
+bool is_number(const std::string& word) {
+  return !word.empty() && word.find_first_not_of("0123456789.%") == std::string::npos;
+}
+
+/// What is wrong with a number behind a flag of one letter, taken for an option that begins with
+/// it; or "".
+std::string value_of_flag(const CLI::App& command, const std::vector<CommandWord>& options,
+                          const std::string& word) {
+  if (!is_number(word)) return "";
+  for (const CommandWord& flag : options) {
+    if (flag.takes_value() || flag.names.size() < 2 || flag.names[0].size() != 2) continue;
+    const CLI::Option* given = command.get_option_no_throw(flag.names[0]);
+    if (given == nullptr || given->count() == 0) continue;
+    for (const CommandWord& option : options) {
+      const std::string& name = option.names.back();
+      if (!option.takes_value() || !name.starts_with("-" + flag.names[0])) continue;
+      return fmt::format("'{}' is '{}' and takes no value; did you mean '{} {}'?", flag.names[0],
+                         flag.names.back(), name, word);
+    }
+  }
+  return "";
+}
+
 /// What is wrong with the first word that looks like an option, or should be a command, and is
-/// none; or "".
+/// none, or is the value of a flag; or "".
 std::string unknown_word(const CLI::App& app) {
   const CLI::App& command = chosen_command(app);
   std::vector<std::string> known;
-  for (const CommandWord& option : command_tree(command).options()) {
+  const std::vector<CommandWord> options = command_tree(command).options();
+  for (const CommandWord& option : options) {
     known.insert(known.end(), option.names.begin(), option.names.end());
   }
   if (&command == &app) {
@@ -200,7 +224,11 @@ std::string unknown_word(const CLI::App& app) {
   const bool lacks_command = &command == &app && !command_tree(app).commands.empty();
   for (const std::string& word : app.remaining(kOfCommandsToo)) {
     if (word == "%") return "there is a '%' by itself: write shares without a blank, as in 0.1%";
-    if (word.front() != '-' && !lacks_command) continue;
+    if (word.front() != '-' && !lacks_command) {
+      const std::string meant = value_of_flag(command, options, word);
+      if (!meant.empty()) return meant;
+      continue;
+    }
     const std::string name = word.substr(0, word.find('='));
     if (word.front() != '-') {
       return fmt::format("there is no command '{}'{}", name, command_meant(app, name, known));

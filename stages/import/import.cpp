@@ -18,9 +18,11 @@
 #include "stages/import/divide_long_edges.h"
 #include "stages/import/features.h"
 #include "stages/import/flat_faces.h"
+#include "stages/import/listed_edges.h"
 #include "stages/import/noise.h"
 #include "stages/import/openings.h"
 #include "stages/import/sew.h"
+#include "stages/import/sew_divided.h"
 #include "stages/import/sheets.h"
 #include "stages/import/soup.h"
 #include "stages/import/triangulate.h"
@@ -92,6 +94,12 @@ std::vector<std::string> describe(const Repairs& repairs, double diagonal) {
                     "diagonal: {}",
                     100 * repairs.widest_gap / diagonal, repairs.sewn_vertices));
   }
+  if (repairs.sewn_into_edges > 0) {
+    sentences.push_back(
+        fmt::format("vertices put into edges of borders that are divided differently, across gaps "
+                    "of up to {:.2g} % of the diagonal: {}",
+                    100 * repairs.widest_divided_gap / diagonal, repairs.sewn_into_edges));
+  }
   add(repairs.flipped_faces, "faces turned over to agree with their neighbours");
   add(repairs.non_orientable_cuts, "edges cut because the surface has only one side");
   add(repairs.non_manifold_edges, "edges of more than two faces taken apart");
@@ -138,7 +146,9 @@ void report_repairs(const Repairs& repairs, double removed_percent, double diago
   report.set("repairs.welded_vertices", repairs.welded_vertices);
   report.set("repairs.weld_tolerance", repairs.weld_tolerance / diagonal);
   report.set("repairs.sewn_vertices", repairs.sewn_vertices);
+  report.set("repairs.sewn_into_edges", repairs.sewn_into_edges);
   report.set("repairs.widest_gap", repairs.widest_gap / diagonal);
+  report.set("repairs.widest_divided_gap", repairs.widest_divided_gap / diagonal);
   report.set("repairs.farthest_moved", repairs.farthest_moved / diagonal);
   report.set("repairs.flipped_faces", repairs.flipped_faces);
   report.set("repairs.non_orientable_cuts", repairs.non_orientable_cuts);
@@ -340,6 +350,7 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
   observer.report("repairing", 0.1);
   std::vector<Index> border = import::weld_borders(triangles, frame.diagonal, repairs);
   border = import::sew_gaps(triangles, border, frame.diagonal, repairs);
+  border = import::sew_divided_borders(triangles, border, frame.diagonal, repairs);
   const import::NearBorders near = import::find_near_borders(triangles, border, frame.diagonal);
   import::drop_degenerate_faces(triangles, repairs);
   const import::Openness given = import::openness(triangles);
@@ -364,6 +375,12 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
     take_noise_off(result.mesh, options, soup, result.report);
   }
   observer.report("finding features", 0.7);
+  EdgeList parts;
+  for (const std::vector<import::DividedEdge>& divided : triangles.divided) {
+    if (listed == nullptr) break;
+    parts = import::listed_parts(*listed, soup, divided);
+    listed = &parts;
+  }
   const import::FeatureCounts features = import::find_features(
       result.mesh, feature_rules(options, result.mesh.diagonal), soup, listed);
   if (options.no_attributes) result.mesh.attributes = {};

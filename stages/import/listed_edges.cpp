@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <map>
 #include <set>
 #include <utility>
@@ -20,6 +21,10 @@ Place place_of(const PolyMesh& input, Index vertex) {
   const Vec3& p = input.positions[vertex];
   return {p.x(), p.y(), p.z()};
 }
+
+using Ends = std::pair<Place, Place>;
+
+Ends ends_at(const Place& a, const Place& b) { return std::minmax(a, b); }
 
 [[noreturn]] void refuse(const EdgeList& list, const EdgeList::Edge& edge,
                          const std::string& what) {
@@ -43,19 +48,55 @@ void require_vertices(const EdgeList& list, const PolyMesh& input) {
   }
 }
 
+std::vector<Index> vertices_of(const DividedEdge& edge) {
+  std::vector<Index> vertices = {edge.from};
+  vertices.insert(vertices.end(), edge.inside.begin(), edge.inside.end());
+  vertices.push_back(edge.to);
+  return vertices;
+}
+
+/// Those from the end at a place to the other.
+std::vector<Index> along(const DividedEdge& edge, const Place& from, const PolyMesh& input) {
+  std::vector<Index> vertices = vertices_of(edge);
+  if (place_of(input, edge.from) != from) std::reverse(vertices.begin(), vertices.end());
+  return vertices;
+}
+
 }  // namespace
+
+EdgeList listed_parts(const EdgeList& list, const PolyMesh& input,
+                      const std::vector<DividedEdge>& divided) {
+  std::map<Ends, const DividedEdge*> by_ends;
+  for (const DividedEdge& edge : divided) {
+    const std::vector<Index> vertices = vertices_of(edge);
+    if (std::count(vertices.begin(), vertices.end(), kNone) > 0) continue;
+    by_ends[ends_at(place_of(input, edge.from), place_of(input, edge.to))] = &edge;
+  }
+  require_vertices(list, input);
+  EdgeList parts{{}, list.name};
+  for (const EdgeList::Edge& edge : list.edges) {
+    const Place from = place_of(input, edge.from);
+    const auto found = by_ends.find(ends_at(from, place_of(input, edge.to)));
+    if (found == by_ends.end()) {
+      parts.edges.push_back(edge);
+      continue;
+    }
+    const std::vector<Index> vertices = along(*found->second, from, input);
+    for (std::size_t i = 1; i < vertices.size(); ++i) {
+      parts.edges.push_back({vertices[i - 1], vertices[i], edge.line});
+    }
+  }
+  return parts;
+}
 
 Index flag_listed_edges(const EdgeList& list, const PolyMesh& input, TriMesh& mesh) {
   require_vertices(list, input);
-  std::map<std::pair<Place, Place>, bool> found;  // listed edges by the places of their ends
+  std::map<Ends, bool> found;  // listed edges by the places of their ends
   std::set<Place> places;
-  const auto key = [](const Place& a, const Place& b) {
-    return std::pair<Place, Place>(std::minmax(a, b));
-  };
   for (const EdgeList::Edge& edge : list.edges) {
     const Place a = place_of(input, edge.from);
     const Place b = place_of(input, edge.to);
-    found[key(a, b)] = false;
+    found[ends_at(a, b)] = false;
     places.insert({a, b});
   }
   std::vector<std::uint8_t> is_end(mesh.positions.size(), 0);
@@ -66,8 +107,8 @@ Index flag_listed_edges(const EdgeList& list, const PolyMesh& input, TriMesh& me
   Index count = 0;
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
     if (mesh.edge_of(h) != h || is_end[mesh.from(h)] == 0 || is_end[mesh.to(h)] == 0) continue;
-    const auto listed = found.find(key(place_of(input, mesh.source_vertex[mesh.from(h)]),
-                                       place_of(input, mesh.source_vertex[mesh.to(h)])));
+    const auto listed = found.find(ends_at(place_of(input, mesh.source_vertex[mesh.from(h)]),
+                                           place_of(input, mesh.source_vertex[mesh.to(h)])));
     if (listed == found.end()) continue;
     listed->second = true;
     if (mesh.is_boundary(h)) continue;  // kept anyway
@@ -75,7 +116,7 @@ Index flag_listed_edges(const EdgeList& list, const PolyMesh& input, TriMesh& me
     ++count;
   }
   for (const EdgeList::Edge& edge : list.edges) {
-    if (found.at(key(place_of(input, edge.from), place_of(input, edge.to)))) continue;
+    if (found.at(ends_at(place_of(input, edge.from), place_of(input, edge.to)))) continue;
     refuse(
         list, edge,
         fmt::format("no edge joins vertices {} and {}, or repairs have removed it; list vertices "

@@ -12,75 +12,25 @@
 
 #include "common/core/disjoint_sets.h"
 #include "common/geometry/face_crossings/box_tree.h"
+#include "stages/import/gaps.h"
 #include "stages/import/weld.h"
 
 namespace strake::import {
 namespace {
 
-/// Shares of the diagonal: what coordinates in single precision are off by; the width from which on
-/// a gap that is open all along is a slit; the widest gap that is sewn; how far apart borders are
-/// told to be near.
-constexpr double kRounding = 1e-6;
-constexpr double kSlit = 2e-5;
-constexpr double kWidest = 2e-4;
+/// Share of the diagonal: how far apart borders are told to be near.
 constexpr double kNear = 5e-4;
-/// A gap over the shortest edge at its ends, at most: edges keep their ends apart, and their order.
-constexpr double kGapOverEdge = 0.2;
-/// How many times as far away any other edge must be, as where a third sheet meets.
-constexpr double kClear = 3;
-/// Cosine of 20 degrees: faces bent more sharply lie on top of each other.
-constexpr double kOnTop = 0.94;
 /// Share of the distance of two borders by which it leads into the faces of both across a strip.
 constexpr double kAcross = 0.25;
-/// Share of its gap by which a slit opens along the surface. Gaps between patches point anywhere: a
-/// tenth of all directions are that close to a given one.
-constexpr double kOpenAlong = 0.8;
-
-/// The direction from an edge into its face, across the edge; zero where the face has no height.
-Vec3 inward(const Soup& soup, Index h) {
-  const Vec3& from = soup.positions[soup.from(h)];
-  const Vec3 along = (soup.positions[soup.to(h)] - from).stableNormalized();
-  const Vec3 way = soup.positions[soup.faces[h / 3][(h % 3 + 2) % 3]] - from;
-  return (way - way.dot(along) * along).stableNormalized();
-}
 
 Vec3 middle_of(const Soup& soup, Index h) {
   return (soup.positions[soup.from(h)] + soup.positions[soup.to(h)]) / 2;
 }
 
-/// The shortest edge at each vertex of the border; infinite elsewhere. [V]
-std::vector<double> shortest_edges(const Soup& soup, const std::vector<Index>& border) {
-  std::vector<std::uint8_t> is_border(soup.positions.size(), 0);
-  for (const Index h : border) is_border[soup.from(h)] = is_border[soup.to(h)] = 1;
-  std::vector<double> shortest(soup.positions.size(), std::numeric_limits<double>::infinity());
-  for (Index h = 0; h < soup.halfedge_count(); ++h) {
-    const Index a = soup.from(h);
-    const Index b = soup.to(h);
-    if (is_border[a] == 0 && is_border[b] == 0) continue;
-    const double length = (soup.positions[a] - soup.positions[b]).norm();
-    shortest[a] = std::min(shortest[a], length);
-    shortest[b] = std::min(shortest[b], length);
-  }
-  return shortest;
-}
-
-/// Two border edges side by side.
-struct EdgePair {
-  std::array<Index, 2> first;   ///< ends of one
-  std::array<Index, 2> second;  ///< of the other, each beside that of the first
-  double gap = 0;               ///< the larger of the distances of the ends
-};
-
 EdgePair paired(const Soup& soup, Index h, Index other) {
   const std::array<Index, 2> ends = {soup.from(h), soup.to(h)};
-  const auto pair_with = [&](Index a, Index b) {
-    return EdgePair{ends,
-                    {a, b},
-                    std::max((soup.positions[ends[0]] - soup.positions[a]).norm(),
-                             (soup.positions[ends[1]] - soup.positions[b]).norm())};
-  };
-  const EdgePair opposite = pair_with(soup.to(other), soup.from(other));
-  const EdgePair alike = pair_with(soup.from(other), soup.to(other));
+  const EdgePair opposite = edge_pair(soup, ends, {soup.to(other), soup.from(other)});
+  const EdgePair alike = edge_pair(soup, ends, {soup.from(other), soup.to(other)});
   return alike.gap < opposite.gap ? alike : opposite;
 }
 
@@ -145,26 +95,6 @@ class PartnerSearch {
   BoxTree tree_;
 };
 
-/// Pairs of edges with a vertex each in common at both sides, one after the other.
-std::vector<Index> find_chains(const std::vector<EdgePair>& pairs) {
-  std::vector<std::array<Index, 3>> ends;  // lower and higher vertex of an end, pair
-  for (Index i = 0; i < static_cast<Index>(pairs.size()); ++i) {
-    for (int k = 0; k < 2; ++k) {
-      const auto [low, high] = std::minmax(pairs[i].first[k], pairs[i].second[k]);
-      ends.push_back({low, high, i});
-    }
-  }
-  std::sort(ends.begin(), ends.end());
-  DisjointSets chains(static_cast<Index>(pairs.size()));
-  for (std::size_t i = 1; i < ends.size(); ++i) {
-    const bool is_same = ends[i][0] == ends[i - 1][0] && ends[i][1] == ends[i - 1][1];
-    if (is_same) chains.unite(ends[i - 1][2], ends[i][2]);
-  }
-  std::vector<Index> chain(pairs.size());
-  for (Index i = 0; i < static_cast<Index>(pairs.size()); ++i) chain[i] = chains.find(i);
-  return chain;
-}
-
 /// The ends of border edges, by vertex.
 class BorderEnds {
  public:
@@ -209,16 +139,6 @@ class BorderEnds {
   std::vector<std::pair<Index, Index>> at_;  ///< a vertex and the other end of an edge there
 };
 
-/// Whether the borders leave room between them at both ends, along the surface.
-bool is_open(const Soup& soup, const EdgePair& pair, const Vec3& inward, const Vec3& beyond) {
-  const Vec3 across = (beyond - inward).stableNormalized();
-  for (int k = 0; k < 2; ++k) {
-    const Vec3 gap = soup.positions[pair.second[k]] - soup.positions[pair.first[k]];
-    if (gap.dot(across) < kOpenAlong * gap.norm()) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 std::vector<Index> sew_gaps(Soup& soup, const std::vector<Index>& border, double diagonal,
@@ -227,30 +147,20 @@ std::vector<Index> sew_gaps(Soup& soup, const std::vector<Index>& border, double
   const PartnerSearch search(soup, border, diagonal);
   const std::vector<Partner> partners = search.partners();
   std::vector<EdgePair> pairs;
-  std::vector<std::uint8_t> is_open_pair;
   for (Index i = 0; i < static_cast<Index>(border.size()); ++i) {
     const auto& [j, gap, next_gap] = partners[i];
     if (j == kNone || j < i || partners[j].at != i) continue;
     const double most = std::min(search.most_at(border[i]), search.most_at(border[j]));
     if (gap > most || std::min(next_gap, partners[j].next_gap) < kClear * gap) continue;
-    const Vec3 inward_i = inward(soup, border[i]);
-    const Vec3 inward_j = inward(soup, border[j]);
-    if (gap > kRounding * diagonal && inward_i.dot(inward_j) > kOnTop) continue;
-    pairs.push_back(paired(soup, border[i], border[j]));
-    is_open_pair.push_back(is_open(soup, pairs.back(), inward_i, inward_j) ? 1 : 0);
+    EdgePair pair = paired(soup, border[i], border[j]);
+    if (!lie_on_top(soup, border[i], border[j], diagonal, pair)) pairs.push_back(pair);
   }
   if (pairs.empty()) return border;
 
-  const std::vector<Index> chain = find_chains(pairs);
-  std::vector<double> width(pairs.size(), 0);  // at the first pair of each chain
-  std::vector<std::uint8_t> is_slit(pairs.size(), 1);
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    width[chain[i]] = std::max(width[chain[i]], pairs[i].gap);
-    is_slit[chain[i]] &= is_open_pair[i];
-  }
+  const std::vector<std::uint8_t> is_slit = find_slits(soup, pairs, find_chains(pairs), diagonal);
   DisjointSets joined(soup.vertex_count());
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (is_slit[chain[i]] != 0 && width[chain[i]] > kSlit * diagonal) continue;
+    if (is_slit[i] != 0) continue;
     for (int k = 0; k < 2; ++k) joined.unite(pairs[i].first[k], pairs[i].second[k]);
     repairs.widest_gap = std::max(repairs.widest_gap, pairs[i].gap);
   }

@@ -13,6 +13,13 @@ namespace strake::import {
 
 using Triangle = std::array<Index, 3>;
 
+/// An edge between vertices of the input that got others inside.
+struct DividedEdge {
+  Index from;
+  Index to;
+  std::vector<Index> inside;  ///< from `from` on; kNone of inserted vertices
+};
+
 /// Triangles on the way from the file to a manifold; nothing is promised about how they meet.
 struct Soup {
   std::vector<Vec3> positions;       ///< [V]
@@ -20,6 +27,7 @@ struct Soup {
   std::vector<Triangle> faces;       ///< [F]
   std::vector<Index> source_face;    ///< [F] index in the input
   std::vector<std::array<TexturePoint, 3>> texture;  ///< [F] of corners; empty without
+  std::vector<std::vector<DividedEdge>> divided;     ///< where borders were sewn, round by round
 
   [[nodiscard]] Index vertex_count() const { return static_cast<Index>(positions.size()); }
   [[nodiscard]] Index face_count() const { return static_cast<Index>(faces.size()); }
@@ -34,6 +42,7 @@ struct Repairs {
   std::int64_t triangulated_faces = 0;  ///< polygons cut into triangles; no defect
   std::int64_t welded_vertices = 0;     ///< where borders coincide
   std::int64_t sewn_vertices = 0;       ///< across gaps between borders
+  std::int64_t sewn_into_edges = 0;     ///< put into edges of borders that are divided differently
   std::int64_t degenerate_faces = 0;    ///< a corner twice
   std::int64_t duplicate_faces = 0;
   double duplicate_area = 0;            ///< of all copies but one, model units squared
@@ -49,7 +58,8 @@ struct Repairs {
   std::int64_t collapsed_edges = 0;        ///< of zero length
   std::int64_t unreferenced_vertices = 0;  ///< dropped; no defect
   double weld_tolerance = 0;               ///< model units
-  double widest_gap = 0;                   ///< of those that were sewn, model units
+  double widest_gap = 0;                   ///< between vertices that were sewn, model units
+  double widest_divided_gap = 0;           ///< between vertices and edges they were put into
   double farthest_moved = 0;               ///< most that merging moved a corner by, model units
 };
 

@@ -158,6 +158,11 @@ std::vector<Index> without_joined(const Soup& soup, const std::vector<Index>& bo
   return left;
 }
 
+std::vector<Index> find_borders(const Soup& soup) {
+  Index ignored = 0;
+  return without_joined(soup, border_halfedges(soup, ignored));
+}
+
 std::vector<Index> weld_borders(Soup& soup, double diagonal, Repairs& repairs) {
   constexpr double kTouching = 1e-9;
   constexpr double kNearlyWelded = 1e-6;

@@ -17,6 +17,9 @@ namespace strake::import {
 /// Cost O(F + B log B) for B border edges.
 std::vector<Index> weld_borders(Soup& soup, double diagonal, Repairs& repairs);
 
+/// The half-edges of edges with one face and two ends, ascending.
+std::vector<Index> find_borders(const Soup& soup);
+
 /// Of half-edges on borders those whose edge is not another one's, too, and has two ends,
 /// ascending: what is left of borders after vertices were joined.
 std::vector<Index> without_joined(const Soup& soup, const std::vector<Index>& border);

@@ -324,6 +324,15 @@ Plan make_plan(const Description& description, const Selection& selection) {
   return Planner(description, selection).make();
 }
 
+std::vector<Setting> idle_settings(const Plan& plan, const std::vector<Setting>& settings) {
+  std::vector<Setting> idle;
+  for (const Setting& setting : settings) {
+    const auto is_of_it = [&](const Step& step) { return step.rule == setting.rule; };
+    if (std::none_of(plan.steps.begin(), plan.steps.end(), is_of_it)) idle.push_back(setting);
+  }
+  return idle;
+}
+
 Provenance step_provenance(const Step& step) {
   const Stage stage = make_stage(step.program);
   for (const Setting& setting : step.settings) {

@@ -58,6 +58,9 @@ struct Selection {
 /// \throw UsageError where a target or rule does not exist
 Plan make_plan(const Description& description, const Selection& selection);
 
+/// Those of the settings that no step of the plan has, as their stages come after the last one.
+std::vector<Setting> idle_settings(const Plan& plan, const std::vector<Setting>& settings);
+
 /// The stage and its options as the step wants them; inputs are to be filled in.
 Provenance step_provenance(const Step& step);
 

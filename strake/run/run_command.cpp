@@ -137,6 +137,16 @@ void RunCommand::print_plan(const Plan& plan, const std::vector<StepState>& stat
   }
 }
 
+void warn_of_idle(const std::vector<Setting>& settings) {
+  for (const Setting& setting : settings) {
+    fmt::print(
+        stderr,
+        "strake: warning: --set {0}.{1} changes nothing: no step of '{0}' is among those that "
+        "are wanted; leave --until out, or name '{0}' there\n",
+        setting.rule, setting.option);
+  }
+}
+
 std::int64_t RunCommand::threads_for(const std::vector<StepOrder>& orders) const {
   // Steps of one program wait for the same before them, so these are taken to run at once.
   std::map<std::string, std::int64_t> abreast;
@@ -265,7 +275,9 @@ const char* RunCommand::done_to_steps() const {
 int RunCommand::run() {
   check_engine_options();
   const Description description = pipeline.read();
-  const Plan plan = make_plan(description, pipeline.selection(description));
+  const Selection selection = pipeline.selection(description);
+  const Plan plan = make_plan(description, selection);
+  if (!quiet) warn_of_idle(idle_settings(plan, selection.settings));
   const Store store(plan.store, dry_run ? Store::Access::look_only : Store::Access::full);
   store.check_format();
   std::set<std::string> forced_rules(forced.begin(), forced.end());

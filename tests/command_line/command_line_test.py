@@ -164,6 +164,15 @@ class Suggestions(unittest.TestCase):
             self.assertIn(f"did you mean '{meant}'?", message)
             self.assertRegex(message, r"there is no (option '--|command ')")
 
+    def test_a_number_behind_a_flag(self):
+        for words in (("remesh", "a.ply", "-o", "b.obj", "-v", "5000"), ("remesh", "a.ply", "-v", "5000")):
+            code, message = said("strake", *words)
+            self.assertEqual(code, 2, message)
+            self.assertIn("'-v' is '--verbose' and takes no value; did you mean '--vertices 5000'?", message)
+        code, message = said("strake", "remesh", "a.ply", "-o", "b.obj", "5000")
+        self.assertEqual(code, 2, message)
+        self.assertNotIn("did you mean", message)
+
     def test_stages_are_programs_of_their_own(self):
         for word, meant in (("trace", "strake-trace"), ("smoth", "strake-smooth"), ("render", "strake-render")):
             code, message = said("strake", word, "mesh.hdf")

@@ -41,6 +41,17 @@ TEST_F(RunOptions, ExplainNamesWhatChanged) {
       << said;
 }
 
+TEST_F(RunOptions, SettingsOfStepsThatAreNotWantedAreNamed) {
+  const auto warned = [&](const std::string& options) {
+    return run("strake run -n " + options).err.find("--set mesh.max-sides changes nothing") !=
+           std::string::npos;
+  };
+  EXPECT_TRUE(warned("--until trace --set mesh.max-sides=4"));
+  EXPECT_FALSE(warned("--until mesh --set mesh.max-sides=4"));
+  EXPECT_FALSE(warned("--set mesh.max-sides=4"));
+  EXPECT_FALSE(warned("-q --until trace --set mesh.max-sides=4"));
+}
+
 TEST_F(RunOptions, UntilAndFrom) {
   EXPECT_EQ(names(run_steps("--until tensor"), "ran"), "torus import, torus sample, torus tensor");
   EXPECT_FALSE(fs::exists(file("torus.obj")));

@@ -20,7 +20,15 @@ class BoxTree {
   /// Calls visit(i) for every box i that touches `box`, in an order that depends on the boxes only.
   template <class Visit>
   void visit_touching(const Box& box, Visit visit) const {
-    visit_from(0, box, [&](Index k) { visit(order_[k]); });
+    visit_from(0, box, [&](Index k) {
+      visit(order_[k]);
+      return true;
+    });
+  }
+  /// The same as long as `visit` returns true.
+  template <class Visit>
+  void visit_touching_while(const Box& box, Visit visit) const {
+    visit_from(0, box, [&](Index k) { return visit(order_[k]); });
   }
 
   /// Parts into which the pairs of boxes that touch each other fall.
@@ -39,6 +47,7 @@ class BoxTree {
       for (Index a = leaf.begin; a < leaf.end; ++a) {
         if (boxes_[a].intersects(boxes_[b])) visit(order_[a], order_[b]);
       }
+      return true;
     });
   }
 
@@ -58,7 +67,8 @@ class BoxTree {
   /// Children are halves, and of each node on the way down one waits.
   static constexpr int kMostLevels = std::numeric_limits<Index>::digits + 1;
 
-  /// Calls visit(k) for each of boxes_ that touches `box`, in leaves that end after `first`.
+  /// Calls visit(k) for each of boxes_ that touches `box`, in leaves that end after `first`, as
+  /// long as it returns true.
   template <class Visit>
   void visit_from(Index first, const Box& box, Visit visit) const {
     std::array<Index, kMostLevels> open;
@@ -74,7 +84,7 @@ class BoxTree {
         continue;
       }
       for (Index k = node.begin; k < node.end; ++k) {
-        if (boxes_[k].intersects(box)) visit(k);
+        if (boxes_[k].intersects(box) && !visit(k)) return;
       }
     }
   }

@@ -135,11 +135,11 @@ TEST(Sew, NoneOfThreeSheetsThatMeetIsPreferred) {
   EXPECT_EQ(count(result.report, "borders.near_edges"), 12);
 }
 
-TEST(Sew, BordersThatAreDividedDifferentlyAreNamed) {
-  // Squares beside each other with 8 and 5 edges along the side they have in common: the middle of
-  // every one of them lies on the other side.
+TEST(Sew, BordersThatAreDividedDifferentlyAndTooFarApartAreNamed) {
+  // Squares beside each other with 8 and 5 edges along a side, 0.03 % of the diagonal apart: the
+  // middle of every one of them lies beside the other side.
   PolyMesh other = shapes::grid(5, 5, [](double, double) { return 0.0; });
-  for (Vec3& p : other.positions) p += Vec3(1, 0, 0);
+  for (Vec3& p : other.positions) p += Vec3(1 + 7e-4, 0, 0);
   const ImportResult result =
       imported(support::together(shapes::grid(8, 8, [](double, double) { return 0.0; }), other));
   EXPECT_EQ(count(result.report, "borders.near_edges"), 8 + 5);
