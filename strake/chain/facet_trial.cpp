@@ -113,7 +113,8 @@ std::string make_with_facets_if_better(Session& session, const WayToResult& way,
     if (with_facets) user.say("the mesh is coarse for this count; trying with edges of its facets");
     const std::string port = way.reach_goal(tried);
     tried.report_to(user);
-    return Trial{tried, port, held.lines(), faults_of(tried, counted, wanted)};
+    CrossingPlaces crossing(tried.get<TriMesh>("mesh"));
+    return Trial{tried, port, held.lines(), faults_of(tried, counted, wanted, crossing)};
   };
 
   Trial taken = *try_out(false);

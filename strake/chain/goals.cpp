@@ -305,9 +305,10 @@ void trace_to_count(Session& session, const GoalStages& stages, const LineAim& a
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
   const Attempt first = fit_either(session, stages, aim, crossing, has_strips);
   const bool is_in_vain = may_be_decimated && !first.places.empty() &&
-                          lines_miss_shape(first.done, stages, aim.counted, aim.wanted);
+                          lines_miss_shape(first.done, stages, aim.counted, aim.wanted, crossing);
   const GiveUp for_decimation = [&](const Attempt& best) {
-    return may_be_decimated && decimation_is_better(best.done, stages, aim.counted, aim.wanted);
+    return may_be_decimated && decimation_is_better(best.done, stages, aim.counted, aim.wanted,
+                                                    crossing);
   };
   session = is_in_vain ? first.done
                        : mend_by_closer_lines(first, stages, aim, want_relatively_closer,
@@ -393,11 +394,10 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
   if (coarser) {
     if (coarser->has("uncrossed")) coarser->keep(stages.uncross);
     take_from_coarser_mesh(session, std::move(*coarser), stages);
-    CrossingPlaces crossing(session.get<TriMesh>("mesh"));
-    replace_crossing(session, stages, aim, crossing);
   }
-  if (!needs_lines && decimate_if_too_coarse(session, stages, counted, wanted)) {
-    CrossingPlaces crossing(session.get<TriMesh>("mesh"));
+  CrossingPlaces crossing(session.get<TriMesh>("mesh"));
+  if (coarser) replace_crossing(session, stages, aim, crossing);
+  if (!needs_lines && decimate_if_too_coarse(session, stages, counted, wanted, crossing)) {
     replace_crossing(session, stages, aim, crossing);
   }
   if (session.has("uncrossed")) session.keep(stages.uncross);

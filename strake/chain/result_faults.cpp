@@ -20,7 +20,7 @@ CellSampling sampling_of(const PolyMesh& result, double samples) {
 }  // namespace
 
 ResultFaults faults_of(const Session& session, Counted counted, std::int64_t wanted,
-                       double samples) {
+                       CrossingPlaces& crossing, double samples) {
   const auto& mesh = session.get<TriMesh>("mesh");
   const char* port = result_port(session);
   const auto& result = session.get<QuadMesh>(port);
@@ -29,10 +29,12 @@ ResultFaults faults_of(const Session& session, Counted counted, std::int64_t wan
   const double cell = std::sqrt(surface_area(mesh) / result.mesh.vertex_count() * share);
   const ErrorMap map =
       measure_cells(ComparedSurfaces(mesh, result), sampling_of(result.mesh, samples));
-  const auto crossing = static_cast<double>(CrossingPlaces(mesh).of(result.mesh).size());
-  return {share * map.rms / cell, map.largest / cell, crossing / result.mesh.face_count(),
-          std::abs(share - 1),
-          1 - static_cast<double>(analyse(result.mesh).quads) / result.mesh.face_count()};
+  const auto faces = static_cast<double>(result.mesh.face_count());
+  return {.distance = share * map.rms / cell,
+          .largest = map.largest / cell,
+          .crossing = static_cast<double>(crossing.of(result.mesh).size()) / faces,
+          .missing = std::abs(share - 1),
+          .odd = 1 - static_cast<double>(analyse(result.mesh).quads) / faces};
 }
 
 }  // namespace strake

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "common/geometry/face_crossings/crossing_places.h"
 #include "strake/chain/counted.h"
 #include "strake/chain/session.h"
 
@@ -20,8 +21,8 @@ struct ResultFaults {
 /// Samples of a result and of the surface, about; large cells hide much between few.
 inline constexpr double kFaultSamples = 200000;
 
-/// Measures what `result_port` names against "mesh".
+/// Measures what `result_port` names against "mesh". \param crossing  of that mesh
 ResultFaults faults_of(const Session& session, Counted counted, std::int64_t wanted,
-                       double samples = kFaultSamples);
+                       CrossingPlaces& crossing, double samples = kFaultSamples);
 
 }  // namespace strake

@@ -125,9 +125,9 @@ Session decimated(Session session, const GoalStages& stages, const Goal& goal) {
 /// What is wrong then; nothing where it cannot be done, which is said when it is to take the place
 /// of lines.
 std::optional<ResultFaults> faults_decimated(const Session& session, const GoalStages& stages,
-                                             const Goal& goal) {
+                                             const Goal& goal, CrossingPlaces& crossing) {
   try {
-    return faults_of(decimated(session, stages, goal), goal.counted, goal.wanted);
+    return faults_of(decimated(session, stages, goal), goal.counted, goal.wanted, crossing);
   } catch (const AlgorithmError&) {
     return std::nullopt;
   }
@@ -136,25 +136,27 @@ std::optional<ResultFaults> faults_decimated(const Session& session, const GoalS
 }  // namespace
 
 bool decimation_is_better(const Session& session, const GoalStages& stages, Counted counted,
-                          std::int64_t wanted) {
-  const std::optional<ResultFaults> left = faults_decimated(session, stages, {counted, wanted});
-  return left && is_much_better(*left, faults_of(session, counted, wanted));
+                          std::int64_t wanted, CrossingPlaces& crossing) {
+  const std::optional<ResultFaults> left =
+      faults_decimated(session, stages, {counted, wanted}, crossing);
+  return left && is_much_better(*left, faults_of(session, counted, wanted, crossing));
 }
 
 bool lines_miss_shape(const Session& session, const GoalStages& stages, Counted counted,
-                      std::int64_t wanted) {
-  const ResultFaults faults = faults_of(session, counted, wanted);
+                      std::int64_t wanted, CrossingPlaces& crossing) {
+  const ResultFaults faults = faults_of(session, counted, wanted, crossing);
   if (faults.distance <= kSeen) return false;
-  const std::optional<ResultFaults> left = faults_decimated(session, stages, {counted, wanted});
+  const std::optional<ResultFaults> left =
+      faults_decimated(session, stages, {counted, wanted}, crossing);
   return left && is_shape_missed(*left, faults) && is_much_better(*left, faults);
 }
 
 bool decimate_if_too_coarse(Session& session, const GoalStages& stages, Counted counted,
-                            std::int64_t wanted) {
+                            std::int64_t wanted, CrossingPlaces& crossing) {
   const Goal goal{counted, wanted};
-  const ResultFaults first = faults_of(session, counted, wanted, kFirstSamples);
+  const ResultFaults first = faults_of(session, counted, wanted, crossing, kFirstSamples);
   if (first.distance < kFarFromSuspect * kSuspect && !is_too_coarse(first)) return false;
-  const ResultFaults faults = faults_of(session, counted, wanted);
+  const ResultFaults faults = faults_of(session, counted, wanted, crossing);
   if (!is_too_coarse(faults)) return false;
   session.say(fmt::format("lines are coarse for this shape at {} {}; decimating to compare", wanted,
                           name_of(counted)));
@@ -165,7 +167,7 @@ bool decimate_if_too_coarse(Session& session, const GoalStages& stages, Counted 
     session.say(std::string("warning: kept the lines: ") + error.what());
     return false;
   }
-  const ResultFaults left = faults_of(*other, counted, wanted);
+  const ResultFaults left = faults_of(*other, counted, wanted, crossing);
   if (!is_much_better(left, faults)) return false;
   session = *other;
   session.keep(stages.decimate);

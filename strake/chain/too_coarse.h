@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "common/geometry/face_crossings/crossing_places.h"
 #include "strake/chain/counted.h"
 #include "strake/chain/goal_stages.h"
 #include "strake/chain/session.h"
@@ -17,19 +18,19 @@ namespace strake {
 /// takes the place of "quads" and "fitted" then, "uncrossed" goes, and the user is told. Such a
 /// result is quad-dominant by area, and follows edges of the surface rather than lines.
 /// \pre what `result_port` names was made from lines for that count
-/// \return whether it was decimated
+/// \param crossing  of "mesh", like that of the others \return whether it was decimated
 bool decimate_if_too_coarse(Session& session, const GoalStages& stages, Counted counted,
-                            std::int64_t wanted);
+                            std::int64_t wanted, CrossingPlaces& crossing);
 
 /// Whether it would be decimated as it is: faces cross or it is farther off, and decimation is much
 /// better.
 bool decimation_is_better(const Session& session, const GoalStages& stages, Counted counted,
-                          std::int64_t wanted);
+                          std::int64_t wanted, CrossingPlaces& crossing);
 
 /// Whether a result made from lines misses the shape by so much, with cells of which one sees that,
 /// that closer lines in places are in vain: decimation to the same count is at less than a quarter
 /// of the distance.
 bool lines_miss_shape(const Session& session, const GoalStages& stages, Counted counted,
-                      std::int64_t wanted);
+                      std::int64_t wanted, CrossingPlaces& crossing);
 
 }  // namespace strake

@@ -166,7 +166,8 @@ bool flat_grid_misses(const PolyMesh& surface, int along) {
                           .refine = refine_stage(),
                           .uncross = refine_uncross_stage(),
                           .decimate = decimate_stage()};
-  return lines_miss_shape(session, stages, Counted::vertices, grid.mesh.vertex_count());
+  CrossingPlaces crossing(session.get<TriMesh>("mesh"));
+  return lines_miss_shape(session, stages, Counted::vertices, grid.mesh.vertex_count(), crossing);
 }
 
 TEST(TooCoarse, CloserLinesAreInVainWhereDecimationFindsTheShape) {
