@@ -167,8 +167,7 @@ class MoveApart {
     within.extend(places_.positions()[v] + Vec3::Constant(reach));
     in_vain_[v] = {rise, within, changed_.size()};
     const std::vector<PlacedFace> others = faces_in(within, v);
-    const std::size_t before =
-        count_around(v, others, std::numeric_limits<std::size_t>::max());
+    const std::size_t before = count_around(v, others, std::numeric_limits<std::size_t>::max());
     if (before == 0) return false;
     const VertexPlaces::State start = places_.state(v);
     const double highest = std::abs(places_.height(v)) + rise * ways.shortest_edge;

@@ -19,7 +19,8 @@ void add_enclosed(std::set<Index>& part, const ForNeighbours& for_neighbours) {
   std::vector<Index> enclosed;
   for (const Index f : part) {
     for_neighbours(f, [&](Index start) {
-      if (start == kNone || is_in.contains(start) || !seen_from.emplace(start, start).second) return;
+      if (start == kNone || is_in.contains(start) || !seen_from.emplace(start, start).second)
+        return;
       std::vector<Index> outside = {start};
       bool is_open = false;
       for (std::size_t i = 0; i < outside.size() && outside.size() <= part.size(); ++i) {

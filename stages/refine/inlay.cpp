@@ -272,8 +272,8 @@ bool InlayCutter::add_band(std::span<const Index> outer, std::span<const Index> 
   };
   std::set<std::array<Index, 2>> across;
   for (std::array<Index, 3> triangle : is_closed
-           ? fill_band(outer.size(), inner.size(), cost, least)
-           : fill_strip(outer.size(), inner.size(), cost, least)) {
+                                           ? fill_band(outer.size(), inner.size(), cost, least)
+                                           : fill_strip(outer.size(), inner.size(), cost, least)) {
     for (Index& v : triangle) {
       const auto at = static_cast<std::size_t>(v);
       v = at < outer.size() ? outer[at] : inner[at - outer.size()];

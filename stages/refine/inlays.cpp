@@ -221,7 +221,8 @@ class Inlays {
         if (site.cells.size() != site.cut_for) left.push_back(&site);
       }
       for (std::size_t first = 0; first < left.size(); first += kCutAtOnce) {
-        const std::span some = std::span(left).subspan(first, std::min(kCutAtOnce, left.size() - first));
+        const std::span some =
+            std::span(left).subspan(first, std::min(kCutAtOnce, left.size() - first));
         std::vector<std::uint8_t> is_cut(some.size());
         tbb::parallel_for(std::size_t{0}, some.size(),
                           [&](std::size_t i) { is_cut[i] = cut_growing(*some[i]) ? 1 : 0; });

@@ -58,8 +58,8 @@ void warn_of_crossing(Session& session, const std::string& port) {
   if (faces == 0) return;
   session.say(fmt::format(
       "warning: {} face(s) of the result cross others where the input does not (those where it "
-      "does are not counted): cells are larger than its details or than the space between its sheets; "
-      "ask for more of them",
+      "does are not counted): cells are larger than its details or than the space between its "
+      "sheets; ask for more of them",
       faces));
 }
 

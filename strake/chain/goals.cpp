@@ -307,8 +307,8 @@ void trace_to_count(Session& session, const GoalStages& stages, const LineAim& a
   const bool is_in_vain = may_be_decimated && !first.places.empty() &&
                           lines_miss_shape(first.done, stages, aim.counted, aim.wanted, crossing);
   const GiveUp for_decimation = [&](const Attempt& best) {
-    return may_be_decimated && decimation_is_better(best.done, stages, aim.counted, aim.wanted,
-                                                    crossing);
+    return may_be_decimated &&
+           decimation_is_better(best.done, stages, aim.counted, aim.wanted, crossing);
   };
   session = is_in_vain ? first.done
                        : mend_by_closer_lines(first, stages, aim, want_relatively_closer,

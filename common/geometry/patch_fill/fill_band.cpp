@@ -81,8 +81,8 @@ class Band {
   [[nodiscard]] double of_short_way(std::size_t outer_steps, std::size_t inner_steps) const {
     double sum = 0;
     for (std::size_t i = 0, j = 0; i < outer_steps || j < inner_steps;) {
-      const bool is_outer = j == inner_steps || (i < outer_steps && least_after(i + 1, j) <=
-                                                                        least_after(i, j + 1));
+      const bool is_outer =
+          j == inner_steps || (i < outer_steps && least_after(i + 1, j) <= least_after(i, j + 1));
       ++(is_outer ? i : j);
       sum += cost_after(i, j);
     }
