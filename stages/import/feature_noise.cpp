@@ -125,7 +125,7 @@ class NoisyLines {
   std::vector<Index> line_;         ///< half-edges, each starting where the one before ends
 };
 
-constexpr double kShortest = 0.02;  ///< length of a feature, share of the diagonal
+constexpr double kShortestFeature = 0.02;  ///< length of a feature, share of the diagonal
 
 /// Cuts off loose ends that are too short, until none is left.
 Index drop_loose_ends(TriMesh& mesh) {
@@ -151,9 +151,9 @@ Index drop_loose_ends(TriMesh& mesh) {
       branch.push_back(onward);
       length += edge_vector(mesh, onward).norm();
       v = mesh.to(onward);
-    } while (degree[v] == 2 && length < kShortest * mesh.diagonal);
+    } while (degree[v] == 2 && length < kShortestFeature * mesh.diagonal);
     // What ends loose on both sides is a piece of its own; the boundary holds what reaches it.
-    if (branch.empty() || length >= kShortest * mesh.diagonal || degree[v] < 3) continue;
+    if (branch.empty() || length >= kShortestFeature * mesh.diagonal || degree[v] < 3) continue;
     if (mesh.is_boundary(mesh.vertex_out[v])) continue;
     for (const Index h : branch) {
       set_feature(mesh, h, false);
@@ -207,7 +207,7 @@ Index drop_short_pieces(TriMesh& mesh) {
         meets_boundary = meets_boundary || mesh.is_boundary(mesh.vertex_out[v]);
       }
     }
-    return length < kShortest * mesh.diagonal && !is_simple_loop && !meets_boundary;
+    return length < kShortestFeature * mesh.diagonal && !is_simple_loop && !meets_boundary;
   });
 }
 

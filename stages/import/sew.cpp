@@ -19,7 +19,7 @@ namespace strake::import {
 namespace {
 
 /// Share of the diagonal: how far apart borders are told to be near.
-constexpr double kNear = 5e-4;
+constexpr double kToldNear = 5e-4;
 /// Share of the distance of two borders by which it leads into the faces of both across a strip.
 constexpr double kAcross = 0.25;
 
@@ -182,7 +182,7 @@ NearBorders find_near_borders(const Soup& soup, const std::vector<Index>& border
     const Index h = border[i];
     const Vec3 middle = middle_of(soup, h);
     const Vec3 along = soup.positions[soup.to(h)] - soup.positions[soup.from(h)];
-    const double reach = std::min(kNear * diagonal, along.norm() / 4);
+    const double reach = std::min(kToldNear * diagonal, along.norm() / 4);
     const Vec3 into = inward(soup, h);
     const BoxTree::Box box(middle.array() - reach, middle.array() + reach);
     tree.visit_touching(box, [&](Index j) {
