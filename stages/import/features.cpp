@@ -154,7 +154,8 @@ Index add_lines(TriMesh& mesh, const std::vector<Index>& edges, const Drop& drop
 /// Flags those of some edges that are connected to lines of some length among themselves.
 Index add_long_enough(TriMesh& mesh, const std::vector<Index>& edges) {
   constexpr double kShortestShallow = 0.05;  // share of the diagonal
-  return add_lines(mesh, edges, [&] { return drop_shorter(mesh, kShortestShallow * mesh.diagonal); });
+  return add_lines(mesh, edges,
+                   [&] { return drop_shorter(mesh, kShortestShallow * mesh.diagonal); });
 }
 
 /// Flags those of some edges that make lines across strips from features to features.

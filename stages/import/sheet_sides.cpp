@@ -1,22 +1,34 @@
 #include "stages/import/sheet_sides.h"
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
 namespace strake::import {
 
 SheetSides::SheetSides(const Soup& soup)
-    : above_(soup.faces.size()), size_(soup.faces.size(), 1), is_turned_(soup.faces.size(), 0) {
+    : above_(soup.faces.size()),
+      size_(soup.faces.size(), 1),
+      is_turned_(soup.faces.size(), 0),
+      is_one_sided_(soup.faces.size(), 0) {
   std::iota(above_.begin(), above_.end(), 0);
   const EdgeGroups groups(soup);
+  std::vector<Joint> against;
   for (Index g = 0; g < groups.size(); ++g) {
     if (groups[g].size() != 2) continue;
     const auto [a, b] = std::pair(groups[g][0], groups[g][1]);
-    unite({a / 3, b / 3, soup.from(a) != soup.from(b)});
+    const Joint joint{a / 3, b / 3, soup.from(a) != soup.from(b)};
+    if (unite(joint) == kNone && !agrees(joint)) against.push_back(joint);
   }
+  for (const Joint& joint : against) is_one_sided_[side_of(joint.face).sheet] = 1;
 }
 
 bool SheetSides::join(const std::vector<Joint>& joints) {
+  const auto is_one_sided = [&](const Joint& joint) {
+    return is_one_sided_[side_of(joint.face).sheet] != 0 ||
+           is_one_sided_[side_of(joint.other).sheet] != 0;
+  };
+  if (std::any_of(joints.begin(), joints.end(), is_one_sided)) return false;
   std::vector<Index> joined;
   for (const Joint& joint : joints) {
     const Index part = unite(joint);

@@ -20,7 +20,8 @@ class SheetSides {
     Index other;
     bool is_alike;  ///< they look the same way as they are
   };
-  /// Joins sheets, all or none. \return whether they keep two sides
+  /// Joins sheets, all or none: none to one that has one side only, which is to be cut, and the
+  /// cut would go farther. \return whether they keep two sides
   bool join(const std::vector<Joint>& joints);
 
  private:
@@ -35,7 +36,8 @@ class SheetSides {
 
   std::vector<Index> above_;  ///< [F] the face that it is compared with; itself at a sheet
   std::vector<Index> size_;   ///< [F] faces of a sheet
-  std::vector<std::uint8_t> is_turned_;  ///< [F] against the one above
+  std::vector<std::uint8_t> is_turned_;     ///< [F] against the one above
+  std::vector<std::uint8_t> is_one_sided_;  ///< [F] a sheet as it was given
 };
 
 }  // namespace strake::import

@@ -284,6 +284,33 @@ TEST(SewDivided, NoSurfaceOfOneSideIsMade) {
   EXPECT_EQ(count(half.report, "repairs.non_orientable_cuts"), 0);
 }
 
+TEST(SewDivided, NothingJoinsASurfaceOfOneSide) {
+  // A band with so many half turns, and a patch beside six of its edges that has twelve.
+  const auto imported_with = [](int half_turns) {
+    const auto place = [&](double x, double y) {
+      const double turn = std::numbers::pi * half_turns * x;
+      const double r = 2 + (y - 0.5) * std::cos(turn);
+      const double angle = 2 * std::numbers::pi * x;
+      return Vec3(r * std::cos(angle), r * std::sin(angle), (y - 0.5) * std::sin(turn));
+    };
+    PolyMesh band = shapes::grid(60, 4, [](double, double) { return 0.0; });
+    for (Vec3& p : band.positions) p = place(p.x(), p.y());
+    PolyMesh patch = shapes::grid(12, 1, [](double, double) { return 0.0; });
+    for (Vec3& p : patch.positions) {
+      const double edges = 6 + 6 * p.x();  // from the band's start on
+      const double y = 1 + 0.3 * p.y();
+      const double share = edges - std::floor(edges);
+      p = (1 - share) * place(std::floor(edges) / 60, y) + share * place(std::ceil(edges) / 60, y);
+    }
+    return imported(support::together(band, patch));
+  };
+  EXPECT_EQ(census(imported_with(2).mesh).components, 1);
+  const ImportResult half = imported_with(1);
+  EXPECT_EQ(census(half.mesh).components, 2);
+  EXPECT_EQ(count(half.report, "repairs.sewn_into_edges"), 0);
+  EXPECT_EQ(count(half.report, "repairs.non_orientable_cuts"), 4);
+}
+
 /// Two sheets, 1 x 1, beside each other, `gap(y)` apart, of 8 and 5 edges along it.
 template <typename Gap>
 PolyMesh pair_of_sheets(const Gap& gap) {
