@@ -69,6 +69,7 @@ VertexPlaces::VertexPlaces(const TriMesh& mesh, const SurfaceDistance& surface,
                            const QuadMesh& quads, const PrincipalField* field)
     : mesh_(mesh),
       surface_(surface),
+      components_(mesh),
       borders_(course_for(mesh, quads)),
       face_normals_(mesh),
       own_normals_(field == nullptr ? strake::wedge_normals(mesh, face_normals_)
@@ -287,7 +288,8 @@ void VertexPlaces::update_feet() {
                                .distance;
       const Vec3 side = face_normals_[foot_face_[v]];
       const ClosestPoint nearest = surface_.closest_if(positions_[v], bound, [&](Index f) {
-        return f == foot_face_[v] || face_normals_[f].dot(side) > kLeastAgreement;
+        return f == foot_face_[v] || (face_normals_[f].dot(side) > kLeastAgreement &&
+                                      components_.has_both(f, foot_face_[v]));
       });
       foot_face_[v] = nearest.triangle;
       foot_[v] = nearest.barycentric;

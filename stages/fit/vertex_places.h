@@ -10,6 +10,7 @@
 #include "common/geometry/border_course.h"
 #include "common/geometry/mesh_measures.h"
 #include "common/geometry/surface_distance/surface_distance.h"
+#include "common/geometry/topology/own_component.h"
 
 namespace strake::fitting {
 
@@ -18,7 +19,7 @@ namespace strake::fitting {
 /// A vertex on a feature or boundary line stays on it: it slides along the line's edges, up to the
 /// corner where the line ends, or once around. One that comes off a ragged boundary slides along
 /// the course of that. Corners do not move at all, nor does a component that is the input's
-/// triangles. All others move freely, and their foot on the surface follows.
+/// triangles. All others move freely, and their foot on the surface follows, on its component.
 class VertexPlaces {
  public:
   /// \param mesh, surface  the input and its faces, in the same order
@@ -95,6 +96,7 @@ class VertexPlaces {
 
   const TriMesh& mesh_;
   const SurfaceDistance& surface_;
+  OwnComponent components_;  ///< of the input
   BorderCourse borders_;
   FaceNormals face_normals_;                 ///< of the input
   std::vector<Vec3> own_normals_;            ///< [W] empty where the field has them

@@ -10,6 +10,7 @@
 #include "common/geometry/mesh_measures.h"
 #include "common/geometry/surface_distance/surface_distance.h"
 #include "common/geometry/surface_point.h"
+#include "common/geometry/topology/own_component.h"
 #include "common/geometry/topology/vertex_ring.h"
 
 namespace strake {
@@ -30,6 +31,7 @@ class Lift {
         coarse_(coarse),
         surface_(mesh.positions, mesh.faces),
         normals_(mesh),
+        components_(mesh),
         coarse_normals_(coarse) {}
 
   /// \param at  on the coarser mesh  \param place  that the foot is of, relative to the origin
@@ -87,9 +89,11 @@ class Lift {
     const Index known = parent_of(3 * at.face + heaviest);
     const Index known_face = TriMesh::face_of(mesh_.vertex_out[known]);
     const Vec3 side = coarse_normals_[at.face];
-    const ClosestPoint found = surface_.closest_if(
-        place, (place - mesh_.positions[known]).norm(),
-        [&](Index f) { return f == known_face || normals_[f].dot(side) > kSameWay; });
+    const ClosestPoint found =
+        surface_.closest_if(place, (place - mesh_.positions[known]).norm(), [&](Index f) {
+          return f == known_face ||
+                 (normals_[f].dot(side) > kSameWay && components_.has_both(f, known_face));
+        });
     SurfacePoint point = found.triangle == kNone ? at_vertex(known)
                                                  : SurfacePoint{found.triangle, found.barycentric};
     // It may touch a line, but is not of it.
@@ -101,6 +105,7 @@ class Lift {
   const TriMesh& coarse_;
   SurfaceDistance surface_;
   FaceNormals normals_;
+  OwnComponent components_;
   FaceNormals coarse_normals_;
 };
 

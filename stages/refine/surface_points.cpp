@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -37,12 +38,19 @@ SurfacePoints::SurfacePoints(const TriMesh& mesh)
       lines_(mesh),
       boundary_(mesh),
       surface_(mesh.positions, mesh.faces),
-      normals_(mesh) {}
+      normals_(mesh),
+      components_(mesh) {}
 
-SurfacePoint SurfacePoints::nearest(const Vec3& p, const Vec3& normal, double reach) const {
-  const auto faces_alike = [&](Index face) { return normals_[face].dot(normal) > 0; };
+SurfacePoint SurfacePoints::nearest(const Vec3& p, const Vec3& normal, double reach,
+                                    Index own) const {
+  const auto is_own = [&](Index face) { return components_.has_both(face, own); };
+  const auto faces_alike = [&](Index face) {
+    return normals_[face].dot(normal) > 0 && is_own(face);
+  };
   ClosestPoint found = surface_.closest_if(p, reach, faces_alike);
-  if (found.triangle == kNone) found = surface_.closest(p);
+  if (found.triangle == kNone) {
+    found = surface_.closest_if(p, std::numeric_limits<double>::infinity(), is_own);
+  }
   return {found.triangle, found.barycentric};
 }
 
@@ -57,7 +65,7 @@ SurfacePoint SurfacePoints::between(const SurfacePoint& a, const SurfacePoint& b
   // the normal is that of a sliver across a notch of the boundary, which is turned over.
   const double reach =
       std::max((place_of(mesh_, a) - middle).norm(), (place_of(mesh_, b) - middle).norm());
-  return nearest(middle, normal, reach);
+  return nearest(middle, normal, reach, a.face);
 }
 
 std::optional<SurfacePoint> SurfacePoints::between_on_boundary(const SurfacePoint& from,

@@ -8,6 +8,7 @@
 #include "common/geometry/surface_distance/surface_distance.h"
 #include "common/geometry/surface_lines.h"
 #include "common/geometry/surface_point.h"
+#include "common/geometry/topology/own_component.h"
 #include "stages/refine/boundary_ways.h"
 
 namespace strake {
@@ -55,7 +56,9 @@ class SurfacePoints {
   /// The surface point nearest to a place, of those that face the same way, if there are any: not
   /// of the other side of a thin wall.
   /// \param reach  farther away none is looked for that faces the same way
-  [[nodiscard]] SurfacePoint nearest(const Vec3& p, const Vec3& normal, double reach) const;
+  /// \param own    a face of the component that it is on
+  [[nodiscard]] SurfacePoint nearest(const Vec3& p, const Vec3& normal, double reach,
+                                     Index own) const;
 
   /// Where a way along a line is best divided.
   [[nodiscard]] SurfacePoint split_of(const std::vector<SurfaceLines::Place>& line) const;
@@ -66,6 +69,7 @@ class SurfacePoints {
   BoundaryWays boundary_;
   SurfaceDistance surface_;
   FaceNormals normals_;
+  OwnComponent components_;
 };
 
 }  // namespace strake

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -48,6 +49,43 @@ PolyMesh sample_soup(SampleKind kind, std::int64_t faces) {
 
 SurfacePoint foot_of(const QuadMesh& quads, Index v) {
   return {quads.provenance.face[v], quads.provenance.barycentric[v]};
+}
+
+/// A vertex that lies nearer to another part has its foot on its own one.
+TEST(LiftQuads, FeetStayOnTheirComponent) {
+  constexpr Index kAcross = 12;
+  constexpr double kApart = 0.1;
+  PolyMesh sheets;
+  for (const double z : {0.0, kApart}) {
+    const auto first = static_cast<Index>(sheets.positions.size());
+    for (Index i = 0; i <= kAcross; ++i) {
+      for (Index j = 0; j <= kAcross; ++j) sheets.positions.emplace_back(i, j, z);
+    }
+    for (Index i = 0; i < kAcross; ++i) {
+      for (Index j = 0; j < kAcross; ++j) {
+        const Index at = first + i * (kAcross + 1) + j;
+        sheets.add_face(std::array<Index, 4>{at, at + kAcross + 1, at + kAcross + 2, at + 1});
+      }
+    }
+  }
+  const TriMesh mesh = support::import_tri_mesh(sheets);
+  const TriMesh coarse = coarsened(mesh, 150);
+  QuadMesh quads;
+  const double lower = -mesh.origin.z();
+  for (Index f = 0; f < coarse.face_count(); ++f) {
+    const SurfacePoint middle{f, {0.3, 0.3, 0.4}};
+    if (std::abs(place_of(coarse, middle).z() - lower) > kApart / 2) continue;
+    quads.mesh.positions.push_back(coarse.origin + place_of(coarse, middle) +
+                                   Vec3(0, 0, 0.9 * kApart));
+    quads.provenance.face.push_back(f);
+    quads.provenance.barycentric.push_back(middle.barycentric);
+    quads.provenance.lines.push_back({kNone, kNone});
+  }
+  quads.mesh.add_face(std::array<Index, 3>{0, 1, 2});
+  const QuadMesh lifted = lift_quads(mesh, coarse, quads);
+  for (Index v = 0; v < lifted.mesh.vertex_count(); ++v) {
+    EXPECT_NEAR(place_of(mesh, foot_of(lifted, v)).z(), lower, 1e-9);
+  }
 }
 
 TEST(LiftQuads, VerticesStayAndFeetAreNearThem) {

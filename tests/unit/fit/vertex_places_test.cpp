@@ -83,6 +83,34 @@ TEST(VertexPlaces, HaveTheNormalsOfTheField) {
             1e-15);
 }
 
+/// Where another part faces the same way and is nearer, labels and colours are not to come from it.
+TEST(VertexPlaces, HaveTheirFeetOnTheirOwnComponent) {
+  PolyMesh sheets;
+  for (const double z : {0.0, 0.1}) {
+    const auto first = static_cast<Index>(sheets.positions.size());
+    sheets.positions.insert(sheets.positions.end(),
+                            {Vec3(-3, -3, z), Vec3(3, -3, z), Vec3(0, 3, z)});
+    sheets.add_face(std::array<Index, 3>{first, first + 1, first + 2});
+  }
+  const TriMesh mesh = support::plain_tri_mesh(sheets);
+  QuadMesh quads;
+  quads.mesh.positions = {Vec3(0, 0, 0), Vec3(0.5, 0, 0), Vec3(0, 0.5, 0)};
+  quads.mesh.add_face(std::array<Index, 3>{0, 1, 2});
+  const SurfaceDistance surface(mesh.positions, mesh.faces);
+  for (const Vec3& p : quads.mesh.positions) {
+    const ClosestPoint foot = surface.closest(p);
+    quads.provenance.face.push_back(foot.triangle);
+    quads.provenance.barycentric.push_back(foot.barycentric);
+  }
+  fitting::VertexPlaces places(mesh, surface, quads);
+  ASSERT_TRUE(places.is_free(0));
+  places.move(0, Vec3(0, 0, 0.09));
+  places.update_feet();
+  EXPECT_NEAR(places.height(0), 0.09, 1e-15);
+  places.store(quads);
+  EXPECT_EQ(quads.provenance.face[0], 0);
+}
+
 /// Vertices in the middle of the teeth of a saw slide along it there; one on a flank stays on that.
 TEST(VertexPlaces, FollowTheCourseOfASaw) {
   constexpr Index kTeeth = 60;

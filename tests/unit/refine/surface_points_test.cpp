@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "common/geometry/samples/samples.h"
 #include "stages/refine/section_path.h"
 #include "tests/support/chain.h"
+#include "tests/support/mesh_support.h"
 #include "tests/support/result_cases.h"
 
 namespace strake {
@@ -21,6 +23,37 @@ using support::toothed_sheet;
 /// Where a vertex of the result lies on the surface.
 SurfacePoint foot(const Case& c, Index v) {
   return {c.quads.provenance.face[v], c.quads.provenance.barycentric[v]};
+}
+
+/// A sheet between the legs of another one lies nearer to what is between them, but is another
+/// part.
+TEST(SurfacePoints, StayOnTheirComponent) {
+  PolyMesh legs;
+  legs.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(3, 0, 0),   Vec3(4, 0, 0),   Vec3(0, 1, 0),
+                    Vec3(1, 1, 0), Vec3(3, 1, 0), Vec3(4, 1, 0),   Vec3(0, 4, 0),   Vec3(1, 4, 0),
+                    Vec3(3, 4, 0), Vec3(4, 4, 0), Vec3(1.2, 2, 0), Vec3(2.8, 2, 0), Vec3(2, 4, 0)};
+  for (const auto& face : std::vector<std::array<Index, 3>>{{0, 1, 5},
+                                                            {0, 5, 4},
+                                                            {1, 2, 6},
+                                                            {1, 6, 5},
+                                                            {2, 3, 7},
+                                                            {2, 7, 6},
+                                                            {4, 5, 9},
+                                                            {4, 9, 8},
+                                                            {6, 7, 11},
+                                                            {6, 11, 10},
+                                                            {12, 13, 14}}) {
+    legs.add_face(face);
+  }
+  const TriMesh mesh = support::plain_tri_mesh(legs);
+  const SurfacePoints points(mesh);
+  const auto inside = [](Index face) { return SurfacePoint{face, {0.2, 0.4, 0.4}}; };
+  const SurfacePoint a = inside(6);
+  const SurfacePoint b = inside(9);
+  const Vec3 middle = (place_of(mesh, a) + place_of(mesh, b)) / 2;
+  for (const Vec3& normal : {Vec3(0, 0, 1), Vec3(0, 0, -1)}) {
+    EXPECT_LT(points.between(a, b, middle, normal).face, 10);
+  }
 }
 
 /// New vertices on a sharp rim lie on the rim, in the middle of its arc, not of the chord.
