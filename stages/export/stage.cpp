@@ -14,7 +14,7 @@ struct NoOptions {
 Stage export_stage() {
   Stage stage;
   stage.name = "export";
-  stage.version = 1;
+  stage.version = 2;
   stage.summary = "Writes the mesh of a quads artifact as a mesh file.";
   stage.inputs = {{"quads", PortKind::quads, "quads artifact"}};
   stage.output = {"quads", PortKind::polygons, "mesh file to write: .obj, .ply or .off"};

@@ -33,12 +33,15 @@ TEST_F(AttributeFiles, LabelsAndColoursOfACube) {
   EXPECT_EQ(labels.name, "g");
   EXPECT_EQ(ply.attributes.labels[0].name, "g");
   const std::vector<std::string> names = {"right", "left", "top", "bottom", "front", "back"};
-  for (Index f = 0; f < obj.face_count(); ++f) {
+  const auto side_of_face = [](const PolyMesh& mesh, Index f) {
     Vec3 middle = Vec3::Zero();
-    for (const Index v : obj.face(f)) middle += obj.positions[v];
-    const Index side = support::side_of(middle);
-    EXPECT_EQ(labels.names[labels.of_face[f]], names[side]) << f;
-    EXPECT_EQ(ply.attributes.labels[0].of_face[f], side) << f;
+    for (const Index v : mesh.face(f)) middle += mesh.positions[v];
+    return support::side_of(middle);
+  };
+  ASSERT_EQ(ply.face_count(), obj.face_count());
+  for (Index f = 0; f < obj.face_count(); ++f) {
+    EXPECT_EQ(labels.names[labels.of_face[f]], names[side_of_face(obj, f)]) << f;
+    EXPECT_EQ(ply.attributes.labels[0].of_face[f], side_of_face(ply, f)) << f;
   }
   // The sides are flat, so fitting has no reason to move vertices off the place they come from; but
   // T-joints are moved into line, by small parts of their edges.

@@ -12,6 +12,7 @@
 #include <cstring>
 #include <iterator>
 #include <map>
+#include <numeric>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -91,32 +92,54 @@ class TextureNumbers {
   std::vector<Index> of_corner_;
 };
 
-/// The OBJ statement for each kind of labels: its own, or for those of other formats the next one
-/// that is free, groups first; "" where none is left.
-std::vector<std::string_view> part_statements(const std::vector<FaceLabels>& kinds) {
-  std::vector<std::string_view> free = {"g", "o", "usemtl"};
-  std::vector<std::string_view> statements(kinds.size());
-  for (std::size_t i = 0; i < kinds.size(); ++i) {
-    const auto own = std::ranges::find(free, kinds[i].name);
-    if (own == free.end()) continue;
-    statements[i] = *own;
-    free.erase(own);
+/// A kind of labels and the OBJ statement for it.
+struct Part {
+  std::string_view statement;
+  const FaceLabels* labels;
+};
+
+/// What OBJ has for each kind of labels, objects first and materials last: its own statement, or
+/// for those of other formats the next one that is free, groups first. A fourth kind has none.
+std::vector<Part> parts_of(const std::vector<FaceLabels>& kinds) {
+  std::vector<Part> parts = {{"o", nullptr}, {"g", nullptr}, {"usemtl", nullptr}};
+  for (const FaceLabels& labels : kinds) {
+    const auto own = std::ranges::find(parts, labels.name, &Part::statement);
+    if (own != parts.end() && own->labels == nullptr) own->labels = &labels;
   }
-  for (std::string_view& statement : statements) {
-    if (!statement.empty() || free.empty()) continue;
-    statement = free.front();
-    free.erase(free.begin());
+  for (const FaceLabels& labels : kinds) {
+    if (std::ranges::find(parts, &labels, &Part::labels) != parts.end()) continue;
+    for (Part* const part : {&parts[1], &parts[0], &parts[2]}) {
+      if (part->labels != nullptr) continue;
+      part->labels = &labels;
+      break;
+    }
   }
-  return statements;
+  std::erase_if(parts, [](const Part& part) { return part.labels == nullptr; });
+  return parts;
 }
 
-void print_part(std::string_view statement, const FaceLabels& labels, Index face, OutputFile& out) {
-  const Index number = labels.of_face[face];
-  if (number >= 0 && static_cast<std::size_t>(number) < labels.names.size()) {
-    out.print("{} {}\n", statement, labels.names[number]);
+void print_part(const Part& part, Index face, OutputFile& out) {
+  const Index number = part.labels->of_face[face];
+  if (number >= 0 && static_cast<std::size_t>(number) < part.labels->names.size()) {
+    out.print("{} {}\n", part.statement, part.labels->names[number]);
   } else {
-    out.print("{} {}_{}\n", statement, labels.name, number);
+    out.print("{} {}_{}\n", part.statement, part.labels->name, number);
   }
+}
+
+/// The faces of an object together, in it those of a group, and in that those of a material, in
+/// order of appearance: programs begin another part at every statement.
+std::vector<Index> faces_by_part(Index face_count, const std::vector<Part>& parts) {
+  std::vector<Index> faces(static_cast<std::size_t>(face_count));
+  std::iota(faces.begin(), faces.end(), 0);
+  // What matters least first: sorting keeps that order where the next is equal.
+  for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
+    const std::vector<Index>& label = part->labels->of_face;
+    std::map<Index, std::size_t> appearance;
+    for (const Index own : label) appearance.try_emplace(own, appearance.size());
+    std::ranges::stable_sort(faces, {}, [&](Index f) { return appearance.at(label[f]); });
+  }
+  return faces;
 }
 
 void write_obj(const PolyMesh& mesh, OutputFile& out) {
@@ -133,13 +156,14 @@ void write_obj(const PolyMesh& mesh, OutputFile& out) {
   }
   const TextureNumbers texture(attributes.texture);
   for (const auto& [s, t] : texture.points()) out.print("vt {} {}\n", s, t);
-  const std::vector<std::string_view> statements = part_statements(attributes.labels);
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    for (std::size_t i = 0; i < statements.size(); ++i) {
-      const FaceLabels& labels = attributes.labels[i];
-      const bool begins = f == 0 || labels.of_face[f] != labels.of_face[f - 1];
-      if (begins && !statements[i].empty()) print_part(statements[i], labels, f, out);
+  const std::vector<Part> parts = parts_of(attributes.labels);
+  Index last = kNone;
+  for (const Index f : faces_by_part(mesh.face_count(), parts)) {
+    for (const Part& part : parts) {
+      const std::vector<Index>& label = part.labels->of_face;
+      if (last == kNone || label[f] != label[last]) print_part(part, f, out);
     }
+    last = f;
     out.print("f");
     for (Index c = mesh.offsets[f]; c < mesh.offsets[f + 1]; ++c) {
       out.print(" {}", mesh.corners[c] + 1);

@@ -168,6 +168,28 @@ void expect_carried(const PolyMesh& input, const TriMesh& mesh) {
   EXPECT_EQ(mesh.attributes.material_files, input.attributes.material_files);
 }
 
+/// Programs begin another object at every statement: faces of a part are written together.
+TEST(Attributes, ObjHasEveryPartOnce) {
+  PolyMesh cube = shapes::cube();
+  cube.attributes.labels = {{"usemtl", {1, 0, 1, 0, 1, 1}, {"steel", "wood"}},
+                            {"o", {1, 0, 0, 1, 0, 1}, {"seat", "leg"}}};
+  const fs::path path = fs::path(testing::TempDir()) / "strake-parts.obj";
+  write_mesh(path, cube);
+  ReadReport report;
+  const Attributes read = read_mesh(path, report).attributes;
+  std::ifstream file(path);
+  std::vector<std::string> statements;
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("o ") || line.starts_with("usemtl ")) statements.push_back(line);
+  }
+  fs::remove(path);
+  EXPECT_EQ(statements, (std::vector<std::string>{"o leg", "usemtl wood", "usemtl steel", "o seat",
+                                                  "usemtl wood", "usemtl steel"}));
+  ASSERT_EQ(read.labels.size(), 2u);
+  EXPECT_EQ(read.labels[0].of_face, (std::vector<Index>{0, 0, 0, 1, 1, 1}));
+  EXPECT_EQ(read.labels[1].of_face, (std::vector<Index>{0, 0, 1, 0, 0, 1}));
+}
+
 TEST(Attributes, EveryKindOfLabelsIsAStatementOfItsOwn) {
   PolyMesh mesh = shapes::cube();
   const std::vector<std::string> kinds = {"label", "usemtl", "region", "part"};
