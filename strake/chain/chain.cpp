@@ -199,6 +199,7 @@ std::string Chain::run(Session& session) const {
   keep_ridges();
   const Option& sides = refine.option("refine-sides");
   if (sides.value().empty()) sides.parse_into(mesh.option("max-sides").value());
+  session.hold_warnings_of(mesh);
   std::string port;
   if (const std::optional<Length> facets = height_of_facets(session, diagonal)) {
     port = run_with_facets(session, *facets);
@@ -206,6 +207,7 @@ std::string Chain::run(Session& session) const {
     import_mesh(session);
     port = reach_goal(session);
   }
+  if (!session.has("decimated")) session.say_held(mesh);  // else no lines are in the result
   warn_of_crossing(session, port);
   return port;
 }

@@ -48,6 +48,19 @@ void Session::note_inputs(const Stage& stage, Provenance& provenance) {
   }
 }
 
+void Session::say_warnings(const std::string& stage, const Report& report) {
+  for (const std::string& warning : report.warnings()) {
+    const std::string text = stage + ": warning: " + warning;
+    if (warned_of_->insert(text).second) say(text);
+  }
+}
+
+void Session::say_held(const Stage& stage) {
+  for (const StageRecord& record : records_) {
+    if (record.provenance.stage == stage.name) say_warnings(stage.name, record.report);
+  }
+}
+
 const Report& Session::run(const Stage& stage, const std::string& last_use_of) {
   observer_->begin(stage.name);
   Provenance provenance = provenance_of(stage);
@@ -64,10 +77,7 @@ const Report& Session::run(const Stage& stage, const std::string& last_use_of) {
   StageResult result = run_stage(stage, inputs, *observer_);
   seconds_[stage.name] +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  for (const std::string& warning : result.report.warnings()) {
-    const std::string text = stage.name + ": warning: " + warning;
-    if (warned_of_->insert(text).second) say(text);
-  }
+  if (!held_.contains(stage.name)) say_warnings(stage.name, result.report);
   if (result.output) provide(stage.output.name, std::move(*result.output), stage.output.name, "");
   StageRecord& record = record_of(stage);
   record = {std::move(provenance), std::move(result.report)};

@@ -76,6 +76,10 @@ class Session {
   ///                     its memory for other things
   /// \return its report
   const Report& run(const Stage& stage, const std::string& last_use_of = "");
+  /// From now on warnings of the stage, which is tried many times, are said by `say_held` only.
+  void hold_warnings_of(const Stage& stage) { held_.insert(stage.name); }
+  /// Says those of the last run of such a stage.
+  void say_held(const Stage& stage);
   /// Hands the last output and record of the stage to the keeper, if there is one.
   void keep(const Stage& stage);
   /// A line for the user.
@@ -99,6 +103,7 @@ class Session {
   };
 
   StageRecord& record_of(const Stage& stage);
+  void say_warnings(const std::string& stage, const Report& report);
   /// The mesh that a field or line set belongs to; nullptr where no port holds it.
   [[nodiscard]] const TriMesh* mesh_of(const Value& value) const;
   /// Where stages are kept it is also that of what is no file, which costs one pass over it.
@@ -112,6 +117,7 @@ class Session {
   std::map<std::string, Entry> values_;
   std::vector<StageRecord> records_;
   std::map<std::string, double> seconds_;  // by stage, all its runs together
+  std::set<std::string> held_;             ///< stages whose warnings are held back
   /// What was said of stages, which run many times: shared by copies, as these are one run.
   std::shared_ptr<std::set<std::string>> warned_of_ = std::make_shared<std::set<std::string>>();
 };

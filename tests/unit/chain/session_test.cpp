@@ -63,14 +63,15 @@ TEST_F(SessionTest, SnapshotsKeepWhatAStageUsesUp) {
   EXPECT_EQ(before.get<TensorField>("tensor").tensor.size(), 100u);
 }
 
+class Listener : public StageObserver {
+ public:
+  void report(std::string_view /*phase*/, double /*fraction*/) override {}
+  void say(const std::string& message) override { said.push_back(message); }
+  std::vector<std::string> said;
+};
+
 // A search runs stages many times, on copies of a session.
 TEST(SessionWarnings, AreSaidOnce) {
-  class Listener : public StageObserver {
-   public:
-    void report(std::string_view /*phase*/, double /*fraction*/) override {}
-    void say(const std::string& message) override { said.push_back(message); }
-    std::vector<std::string> said;
-  };
   Listener listener;
   Session session(listener);
   Stage stage;
@@ -89,6 +90,29 @@ TEST(SessionWarnings, AreSaidOnce) {
   session.run(stage);
   EXPECT_EQ(listener.said,
             (std::vector<std::string>{"warn: warning: thin", "warn: warning: bent"}));
+}
+
+// Each attempt has other numbers; only those of the one that is taken matter.
+TEST(SessionWarnings, AreThoseOfTheAttemptThatIsTaken) {
+  Listener listener;
+  Session session(listener);
+  Stage stage;
+  stage.name = "warn";
+  int components = 3;
+  stage.run = [&components](Inputs& /*inputs*/, Observer& /*observer*/) {
+    StageResult result;
+    result.report.warn(std::to_string(components) + " component(s)");
+    return result;
+  };
+  session.hold_warnings_of(stage);
+  session.run(stage);
+  const Session taken = session;
+  components = 5;
+  session.run(stage);
+  session = taken;
+  EXPECT_TRUE(listener.said.empty());
+  session.say_held(stage);
+  EXPECT_EQ(listener.said, std::vector<std::string>{"warn: warning: 3 component(s)"});
 }
 
 }  // namespace
