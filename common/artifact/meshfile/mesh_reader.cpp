@@ -157,7 +157,14 @@ PolyMesh parse_mesh(std::string_view bytes, std::string_view extension, ReadRepo
       format != Format::unknown && promised != Format::unknown && format != promised;
   if (format == Format::unknown) format = promised;
   PolyMesh mesh = read_format(format, bytes, report);
+  const bool has_faces = mesh.face_count() > 0 || report.missing_faces > 0;
   drop_unusable_faces(mesh, report);
+  if (!has_faces && mesh.vertex_count() > 0) {
+    throw InputError(fmt::format(
+        "holds {} vertices but no faces ({}{}): it may be cut off before them, or be a point "
+        "cloud, of which a surface must be made first",
+        mesh.vertex_count(), report.format, describe_loss(report)));
+  }
   if (mesh.face_count() == 0) {
     throw InputError(fmt::format("holds no usable face ({}, {} vertices{})", report.format,
                                  mesh.vertex_count(), describe_loss(report)));

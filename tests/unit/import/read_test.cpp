@@ -275,6 +275,26 @@ TEST(ReadPly, RefusesDamagedHeaders) {
 
 // --- recognition
 
+TEST(Recognition, VerticesWithoutFacesAreNamed) {
+  ReadReport report;
+  try {
+    parse_mesh("v 0 0 0\nv 1 0 0\nv 0 1 0\n", ".obj", report);
+    ADD_FAILURE() << "a file without faces was read";
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("3 vertices but no faces"), std::string::npos) << message;
+    EXPECT_NE(message.find("cut off"), std::string::npos) << message;
+    EXPECT_NE(message.find("point cloud"), std::string::npos) << message;
+  }
+  // Those that are there, and of no use, are another matter.
+  try {
+    parse_mesh("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\n", ".obj", report);
+    ADD_FAILURE() << "a face of two corners was read";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("no usable face"), std::string::npos);
+  }
+}
+
 TEST(Recognition, ContentGoesBeforeTheName) {
   ReadReport report;
   const PolyMesh mesh = parse("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", report, ".ply");
