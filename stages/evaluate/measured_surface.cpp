@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 
+#include "common/core/disjoint_sets.h"
 #include "common/core/error.h"
 #include "common/geometry/flat_triangle.h"
 
@@ -56,6 +57,14 @@ MeasuredSurface::MeasuredSurface(const std::vector<Vec3>& positions,
     sum += cross(t).norm() / 2;
     area_up_to_.push_back(sum);
   }
+  DisjointSets sets(static_cast<Index>(positions.size()));
+  for (const auto& [a, b, c] : triangles) {
+    sets.unite(a, b);
+    sets.unite(a, c);
+  }
+  component_.reserve(positions.size());
+  for (Index v = 0; v < std::ssize(positions); ++v) component_.push_back(sets.find(v));
+  for (Index t = 0; t < count; ++t) is_one_ = is_one_ && component(t) == component(0);
 }
 
 std::vector<Vec3> MeasuredSurface::vertices() const {
@@ -89,7 +98,7 @@ SurfaceSample MeasuredSurface::sample(std::int64_t i, std::int64_t n) const {
   const auto& positions = distance_.positions();
   return {(1 - root) * positions[corners[0]] + root * (1 - v) * positions[corners[1]] +
               root * v * positions[corners[2]],
-          normal(static_cast<Index>(triangle))};
+          normal(static_cast<Index>(triangle)), static_cast<Index>(triangle)};
 }
 
 }  // namespace strake::evaluation

@@ -13,7 +13,8 @@ namespace strake::evaluation {
 /// A place on a surface with the normal of its triangle.
 struct SurfaceSample {
   Vec3 position;
-  Vec3 normal;  ///< unit
+  Vec3 normal;     ///< unit
+  Index triangle;  ///< by its index in `distance()`
 };
 
 /// Triangles to measure on: area-weighted samples from them, nearest points on them.
@@ -42,6 +43,12 @@ class MeasuredSurface {
     return sources_.empty() ? triangle : sources_[triangle];
   }
   [[nodiscard]] double area() const { return area_up_to_.back(); }
+  /// The component of a triangle, joined by vertices, by its index in `distance()`.
+  [[nodiscard]] Index component(Index triangle) const {
+    return component_[distance_.triangles()[triangle][0]];
+  }
+  /// Whether all triangles are of one.
+  [[nodiscard]] bool is_one() const { return is_one_; }
 
  private:
   [[nodiscard]] Vec3 cross(Index triangle) const;
@@ -50,6 +57,8 @@ class MeasuredSurface {
   std::vector<std::array<Index, 3>> kept_;
   std::vector<double> area_up_to_;  // running sums
   SurfaceDistance distance_;
+  std::vector<Index> component_;  // [V], each named by its first vertex
+  bool is_one_ = true;
 };
 
 }  // namespace strake::evaluation

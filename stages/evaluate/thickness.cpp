@@ -32,9 +32,42 @@ struct Through {
 };
 
 /// The nearest place that faces a direction; its triangle is kNone where none is within reach.
-ClosestPoint facing(const MeasuredSurface& surface, const Vec3& p, const Vec3& way, double reach) {
-  return surface.distance().closest_if(
-      p, reach, [&](Index triangle) { return surface.normal(triangle).dot(way) > 0; });
+/// \param component  of which it is to be; kNone: of any
+ClosestPoint facing(const MeasuredSurface& surface, const Vec3& p, const Vec3& way, double reach,
+                    Index component) {
+  return surface.distance().closest_if(p, reach, [&](Index triangle) {
+    return surface.normal(triangle).dot(way) > 0 &&
+           (component == kNone || surface.component(triangle) == component);
+  });
+}
+
+/// How far the two sides of one component of the candidate are apart; 0 where one is not found.
+double distance_between(const ThicknessRequest& request, const SurfaceSample& at,
+                        const Vec3& opposite, Index component) {
+  const MeasuredSurface& candidate = request.candidate;
+  const ClosestPoint front = facing(candidate, at.position, at.normal, request.cell, component);
+  const ClosestPoint back = facing(candidate, opposite, -at.normal, request.cell, component);
+  if (front.triangle == kNone || back.triangle == kNone) return 0;
+  const Vec3 way = candidate.distance().point(front) - candidate.distance().point(back);
+  return std::max(way.dot(at.normal), 0.0);
+}
+
+/// What a thickness became: where parts touch or lie in each other, in the component of the place
+/// nearest to the front or to the back, whichever is more like it.
+double thickness_now(const ThicknessRequest& request, const SurfaceSample& at, const Vec3& opposite,
+                     double thickness) {
+  if (request.reference.is_one() || request.candidate.is_one()) {
+    return distance_between(request, at, opposite, kNone);
+  }
+  const MeasuredSurface& candidate = request.candidate;
+  double now = 0;
+  for (const ClosestPoint& end : {facing(candidate, at.position, at.normal, request.cell, kNone),
+                                  facing(candidate, opposite, -at.normal, request.cell, kNone)}) {
+    if (end.triangle == kNone) continue;
+    const double own = distance_between(request, at, opposite, candidate.component(end.triangle));
+    if (std::abs(own - thickness) < std::abs(now - thickness)) now = own;
+  }
+  return now;
 }
 
 double least_change(double thickness, double cell) {
@@ -42,19 +75,16 @@ double least_change(double thickness, double cell) {
 }
 
 Through look_through(const ThicknessRequest& request, const SurfaceSample& at) {
-  const double thickness = request.reference.distance().distance_to_back(at.position, -at.normal,
-                                                                         request.cell, kAgainst);
+  const Index own = request.reference.component(at.triangle);
+  const double thickness = request.reference.distance().distance_to_back(
+      at.position, -at.normal, request.cell, kAgainst,
+      [&](Index triangle) { return request.reference.component(triangle) == own; });
   if (std::isinf(thickness)) return {};
   const SurfaceDistance& candidate = request.candidate.distance();
   const Vec3 opposite = at.position - thickness * at.normal;
   const double off = candidate.closest(at.position).distance + candidate.closest(opposite).distance;
   if (off <= least_change(thickness, request.cell)) return {thickness, thickness, 0};
-  const ClosestPoint front = facing(request.candidate, at.position, at.normal, request.cell);
-  const ClosestPoint back = facing(request.candidate, opposite, -at.normal, request.cell);
-  double now = 0;
-  if (front.triangle != kNone && back.triangle != kNone) {
-    now = std::max((candidate.point(front) - candidate.point(back)).dot(at.normal), 0.0);
-  }
+  const double now = thickness_now(request, at, opposite, thickness);
   return {thickness, now, std::min(std::abs(thickness - now), off)};
 }
 

@@ -22,7 +22,8 @@ struct ThicknessRequest {
 ///
 /// From samples of the reference one looks through the body to its other side. What that became
 /// lies between the nearest places of the candidate that face the same ways, along the same line:
-/// so a sheet that both sides leave alike and a rod that few cells bend keep their thickness.
+/// so a sheet that both sides leave alike and a rod that few cells bend keep their thickness. Both
+/// sides are of one component, as parts may touch or lie in each other.
 void report_thickness(const ThicknessRequest& request, Report& report);
 
 }  // namespace strake::evaluation

@@ -254,7 +254,8 @@ ClosestPoint SurfaceDistance::query(const Vec3& p, const ClosestPoint& best,
 }
 
 double SurfaceDistance::distance_to_back(const Vec3& p, const Vec3& direction, double reach,
-                                         double least_cosine) const {
+                                         double least_cosine,
+                                         const std::function<bool(Index)>& accept) const {
   const Vec3 local = scale_ * (p - centre_);
   RTCRayHit ray = {};
   ray.ray.org_x = static_cast<float>(local.x());
@@ -264,13 +265,18 @@ double SurfaceDistance::distance_to_back(const Vec3& p, const Vec3& direction, d
   ray.ray.dir_y = static_cast<float>(direction.y());
   ray.ray.dir_z = static_cast<float>(direction.z());
   ray.ray.tnear = static_cast<float>(kFloatMargin * std::max(1.0, local.cwiseAbs().maxCoeff()));
-  ray.ray.tfar = static_cast<float>(scale_ * reach);
   ray.ray.mask = ~0U;
-  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect1(hierarchy_->scene, &context, &ray);
-  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::numeric_limits<double>::infinity();
+  const float step = ray.ray.tnear;
+  while (true) {
+    ray.ray.tfar = static_cast<float>(scale_ * reach);
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(hierarchy_->scene, &context, &ray);
+    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::numeric_limits<double>::infinity();
+    if (accept(static_cast<Index>(ray.hit.primID))) break;
+    ray.ray.tnear = ray.ray.tfar + step;
+  }
   const auto& [a, b, c] = triangles_[ray.hit.primID];
   const Vec3 normal = (positions_[b] - positions_[a]).cross(positions_[c] - positions_[a]);
   if (!(normal.dot(direction) > least_cosine * normal.norm()))

@@ -53,13 +53,15 @@ class SurfaceDistance {
                                         const std::function<bool(Index)>& accept) const;
 
   /// How far it is from a place of the surface through the body to its other side: to the first
-  /// triangle that a ray meets, if it is seen from behind; infinite where that is not, or is not
-  /// within `reach`. In single precision, from a millionth of the size of the surface on.
+  /// triangle that a ray meets of those that `accept` admits, if it is seen from behind; infinite
+  /// where that is not, or is not within `reach`. In single precision, from a millionth of the size
+  /// of the surface on.
   /// \param direction  unit
   /// \param least_cosine  of the angle between its normal and the ray, at least 0; where that is
   /// less the triangle is none that lies across
   [[nodiscard]] double distance_to_back(const Vec3& p, const Vec3& direction, double reach,
-                                        double least_cosine) const;
+                                        double least_cosine,
+                                        const std::function<bool(Index)>& accept) const;
 
   /// The place of a query's result.
   [[nodiscard]] Vec3 point(const ClosestPoint& at) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "tests/support/mesh_support.h"
 #include "tests/unit/evaluate/evaluated.h"
 #include "tests/unit/evaluate/shapes.h"
 
@@ -69,6 +70,17 @@ TEST(Thickness, ABluntedEdgeIsNoThinPart) {
   };
   // 44 degrees.
   EXPECT_FALSE(is_warned(report_on(wedge(16, 1.6, 1), wedge(2, 1.6, 0.5))));
+}
+
+// Between the bottom of the upper bar and the top of the lower one there is no part.
+TEST(Thickness, IsThatOfOneComponent) {
+  const auto bars = [](Index n, double down) {
+    return support::together(support::transformed(bar(n, 1), Mat3::Identity(), Vec3(0, 0, -down)),
+                             support::transformed(bar(n, 1), Mat3::Identity(), Vec3(0, 0, 0.5)));
+  };
+  const Report report = report_on(bars(8, 0), bars(1, 0.5));
+  EXPECT_EQ(number(report, "thickness.changed_share"), 0);
+  EXPECT_FALSE(is_warned(report));
 }
 
 TEST(Thickness, PlacesAreThoseOfTheFile) {
