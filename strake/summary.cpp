@@ -44,7 +44,14 @@ std::string summary_text(const std::string& output, const PolyMesh& mesh, const 
   if (measures->number("faces.degenerate").value_or(0) > 0) {
     count("faces without area", "faces.degenerate");
   }
-  count("crossing pairs of faces", "shape.self_intersecting_pairs");
+  if (const auto pairs = measures->number("shape.self_intersecting_pairs")) {
+    const double touching = measures->number("shape.touching_pairs").value_or(0);
+    text +=
+        fmt::format("  {:<28} {:.0f}{}\n", "crossing pairs of faces", *pairs,
+                    touching == 0        ? ""
+                    : touching == *pairs ? ", which only touch"
+                                         : fmt::format(", {:.0f} of which only touch", touching));
+  }
   return text;
 }
 

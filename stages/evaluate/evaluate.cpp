@@ -130,8 +130,8 @@ EvaluateResult evaluate_mesh(const TriMesh& reference, const PrincipalField* fie
   PolyMesh local = candidate;
   for (Vec3& p : local.positions) p -= reference.origin;
   const FaceTriangles triangles = triangulate_faces(local);
-  const std::int64_t crossing = evaluation::report_shape(local, topology, triangles, edges, report);
-  evaluation::report_own_crossings(reference, crossing, report);
+  const auto crossing = evaluation::report_shape(local, topology, triangles, edges, report);
+  evaluation::report_own_crossings(reference, local.positions, triangles, crossing, report);
   evaluation::report_valence(local, edges, report);
 
   const evaluation::MeasuredSurface reference_surface(reference.positions, reference.faces,

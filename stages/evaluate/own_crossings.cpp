@@ -7,13 +7,13 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include "common/core/place_text.h"
 #include "common/geometry/face_crossings/box_tree.h"
 #include "common/geometry/face_crossings/face_crossings.h"
 #include "common/geometry/face_crossings/penetration.h"
-#include "common/geometry/poly_topology/face_shape.h"
 
 namespace strake::evaluation {
 namespace {
@@ -22,9 +22,9 @@ namespace {
 /// edge.
 constexpr double kTouchingDepth = 1e-6;
 
-std::array<Vec3, 3> corners_of(const TriMesh& mesh, Index face) {
-  const auto& [a, b, c] = mesh.faces[face];
-  return {mesh.positions[a], mesh.positions[b], mesh.positions[c]};
+std::array<Vec3, 3> places_of(const std::vector<Vec3>& positions,
+                              const std::array<Index, 3>& corners) {
+  return {positions[corners[0]], positions[corners[1]], positions[corners[2]]};
 }
 
 BoxTree::Box box_of(const std::array<Vec3, 3>& triangle) {
@@ -45,6 +45,30 @@ bool lie_against(const std::array<Vec3, 3>& t, const std::array<Vec3, 3>& u, dou
   return normal(t).dot(normal(u)) < 0 && (is_in_plane(t, u) || is_in_plane(u, t));
 }
 
+/// How deep triangles pass through each other; 0 where they only touch.
+double crossing_depth(const std::array<Vec3, 3>& t, const std::array<Vec3, 3>& u, double touching) {
+  if (!triangles_cross(t, u) || lie_against(t, u, touching)) return 0;
+  const double depth = penetration_depth(t, u);
+  return depth > touching ? depth : 0;
+}
+
+/// Number of these pairs of which no triangles cross.
+std::int64_t count_touching(const std::vector<Vec3>& positions, const FaceTriangles& triangles,
+                            const std::vector<std::array<Index, 2>>& pairs, double touching) {
+  const auto triangles_of = [&](Index face) {
+    const auto of_face = std::ranges::equal_range(triangles.face, face);
+    return std::span(triangles.corners.begin() + (of_face.begin() - triangles.face.begin()),
+                     of_face.size());
+  };
+  return std::ranges::count_if(pairs, [&](const std::array<Index, 2>& pair) {
+    return std::ranges::none_of(triangles_of(pair[0]), [&](const std::array<Index, 3>& one) {
+      return std::ranges::any_of(triangles_of(pair[1]), [&](const std::array<Index, 3>& other) {
+        return crossing_depth(places_of(positions, one), places_of(positions, other), touching) > 0;
+      });
+    });
+  });
+}
+
 }  // namespace
 
 OwnCrossings find_own_crossings(const TriMesh& mesh) {
@@ -54,11 +78,13 @@ OwnCrossings find_own_crossings(const TriMesh& mesh) {
   const double touching = kTouchingDepth * mesh.diagonal;
   double deepest = touching;
   for (const auto& [f, g] : find_crossing_faces(mesh.positions, triangles)) {
-    const std::array<Vec3, 3> one = corners_of(mesh, f);
-    const std::array<Vec3, 3> two = corners_of(mesh, g);
-    if (lie_against(one, two, touching)) continue;
-    const double depth = penetration_depth(one, two);
-    if (depth <= touching) continue;
+    const std::array<Vec3, 3> one = places_of(mesh.positions, mesh.faces[f]);
+    const std::array<Vec3, 3> two = places_of(mesh.positions, mesh.faces[g]);
+    const double depth = crossing_depth(one, two, touching);
+    if (depth == 0) {
+      ++own.touching;
+      continue;
+    }
     ++own.pairs;
     if (depth <= deepest) continue;
     deepest = depth;
@@ -67,18 +93,31 @@ OwnCrossings find_own_crossings(const TriMesh& mesh) {
   return own;
 }
 
-void report_own_crossings(const TriMesh& reference, std::int64_t pairs, Report& report) {
-  if (pairs == 0) return;
+void report_own_crossings(const TriMesh& reference, const std::vector<Vec3>& positions,
+                          const FaceTriangles& triangles,
+                          const std::vector<std::array<Index, 2>>& pairs, Report& report) {
+  const std::int64_t touching =
+      count_touching(positions, triangles, pairs, kTouchingDepth * reference.diagonal);
+  report.set("shape.touching_pairs", touching);
+  const std::int64_t crossing = std::ssize(pairs) - touching;
+  if (crossing == 0) return;
   const OwnCrossings own = find_own_crossings(reference);
   report.set("shape.reference_crossing_pairs", own.pairs);
+  if (own.pairs == 0 && own.touching > 0) {
+    report.warn(fmt::format(
+        "{} pair{} of faces of the result cross{}, where the input has {} that only touch, as "
+        "parts against each other do: their cells differ there, and so pass through each other a "
+        "little; where they should not, unite the parts of the model first (a boolean union)",
+        crossing, crossing == 1 ? "" : "s", crossing == 1 ? "es" : "", own.touching));
+  }
   if (own.pairs == 0) return;
   const Vec3 place = own.place + reference.origin;
   report.warn(fmt::format(
       "{} pair{} of faces of the result cross{}, and the input itself has {} such pair{}, one near "
       "{}: the result follows it and crosses itself there, too; where it "
       "should not, unite the parts of the model first (a boolean union), or repair it",
-      pairs, pairs == 1 ? "" : "s", pairs == 1 ? "es" : "", own.pairs, own.pairs == 1 ? "" : "s",
-      place_text(place, reference.diagonal)));
+      crossing, crossing == 1 ? "" : "s", crossing == 1 ? "es" : "", own.pairs,
+      own.pairs == 1 ? "" : "s", place_text(place, reference.diagonal)));
 }
 
 }  // namespace strake::evaluation

@@ -163,8 +163,9 @@ void report_proportions(const Collection& all, Report& report) {
 
 }  // namespace
 
-std::int64_t report_shape(const PolyMesh& mesh, const PolyTopology& topology,
-                          const FaceTriangles& triangles, const PolyEdges& edges, Report& report) {
+std::vector<std::array<Index, 2>> report_shape(const PolyMesh& mesh, const PolyTopology& topology,
+                                               const FaceTriangles& triangles,
+                                               const PolyEdges& edges, Report& report) {
   const std::vector<double> area = face_areas(mesh, triangles);
   Collection all;
   for (Index f = 0; f < mesh.face_count(); ++f) {
@@ -177,9 +178,8 @@ std::int64_t report_shape(const PolyMesh& mesh, const PolyTopology& topology,
   report_sides(topology, mesh, area, all, report);
   report_angles(all, report);
   report_proportions(all, report);
-  const auto crossing =
-      static_cast<std::int64_t>(find_crossing_faces(mesh.positions, triangles).size());
-  report.set("shape.self_intersecting_pairs", crossing);
+  std::vector<std::array<Index, 2>> crossing = find_crossing_faces(mesh.positions, triangles);
+  report.set("shape.self_intersecting_pairs", crossing.size());
   report.set("edges.count", std::int64_t{topology.edges});
   report.set("edges.length_min", smallest(lengths));
   report.set("edges.length_mean", mean(lengths));

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <cstdint>
+#include <array>
+#include <vector>
 
 #include "common/core/poly_mesh.h"
 #include "common/core/report.h"
@@ -22,8 +23,9 @@ namespace strake::evaluation {
 /// `shape.self_intersecting_pairs` counts the pairs of faces that meet anywhere but in the corners
 /// and edges they share.
 /// \return these pairs
-std::int64_t report_shape(const PolyMesh& mesh, const PolyTopology& topology,
-                          const FaceTriangles& triangles, const PolyEdges& edges, Report& report);
+std::vector<std::array<Index, 2>> report_shape(const PolyMesh& mesh, const PolyTopology& topology,
+                                               const FaceTriangles& triangles,
+                                               const PolyEdges& edges, Report& report);
 
 /// Reports "valence.*": edges at the vertices that are not on a boundary or non-manifold edge.
 /// A T-joint is such a vertex of valence 3 with a corner of more than 160 degrees.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -73,6 +74,28 @@ TEST(OwnCrossings, WhatOnlyTouchesIsNone) {
     EXPECT_EQ(crossings_of(two_cubes(shift)).pairs, 0) << shift.transpose();
   }
   EXPECT_EQ(crossings_of(shapes::torus(24, 12, 2, 1)).pairs, 0);
+}
+
+/// The figure counts all that meet: how many only touch is said with it, and warnings are of
+/// others.
+TEST(OwnCrossings, TouchingPairsOfTheResultAreCounted) {
+  const PolyMesh touching = two_cubes(Vec3(1, 0.5, 0.5));
+  const Report beside = evaluated(shapes::reference(touching), touching);
+  EXPECT_GT(number(beside, "shape.self_intersecting_pairs"), 0);
+  EXPECT_EQ(number(beside, "shape.touching_pairs"),
+            number(beside, "shape.self_intersecting_pairs"));
+  EXPECT_EQ(crossing_warning(beside), "");
+  const PolyMesh both = two_cubes(Vec3(0.3, 0.4, 0.6));
+  EXPECT_EQ(number(evaluated(shapes::reference(both), both), "shape.touching_pairs"), 0);
+}
+
+/// Else a figure that is not 0 would stand without a word.
+TEST(OwnCrossings, OfPartsThatTouchInTheInputAreExplained) {
+  const TriMesh reference = shapes::reference(two_cubes(Vec3(1, 0.5, 0.5)));
+  const Report report = evaluated(reference, two_cubes(Vec3(0.98, 0.5, 0.5)));
+  EXPECT_TRUE(std::ranges::any_of(report.warnings(), [](const std::string& warning) {
+    return warning.find("only touch") != std::string::npos;
+  }));
 }
 
 TEST(OwnCrossings, AreTheSameFarAway) {
