@@ -305,6 +305,14 @@ TEST_F(GoodPipeline, MarksInTheFoldersNameAreNoPattern) {
   EXPECT_EQ(description.models[0].file, folder_ / "old [1]*" / "a.obj");
 }
 
+TEST_F(GoodPipeline, TheSpellingOfTheCommandLineIsAnsweredByThatOfFiles) {
+  for (const char* text : {"version: 1\nmodels: [a.obj]\nvariants: { fine: { trace.vertices: 3000 } }\n",
+                           "version: 1\nmodels: [a.obj]\noptions: { trace.vertices: 3000 }\n"}) {
+    const std::string said = complaint(text);
+    EXPECT_NE(said.find("'trace: { vertices: 3000 }'"), std::string::npos) << said;
+  }
+}
+
 TEST_F(GoodPipeline, SettingsFromTheCommandLine) {
   const Description description = describe("version: 1\nmodels: [a.obj]\n");
   const Setting setting = parse_setting(description, "trace.seed=7");
