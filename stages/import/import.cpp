@@ -100,8 +100,8 @@ std::vector<std::string> describe(const Repairs& repairs, double diagonal) {
                     "of up to {:.2g} % of the diagonal: {}",
                     100 * repairs.widest_divided_gap / diagonal, repairs.sewn_into_edges));
   }
-  add(repairs.flipped_faces, "faces turned over to agree with their neighbours");
   add(repairs.non_orientable_cuts, "edges cut because the surface has only one side");
+  add(repairs.flipped_faces, "faces turned over to agree with their neighbours");
   add(repairs.non_manifold_edges, "edges of more than two faces taken apart");
   add(repairs.split_vertices, "vertices copied where sheets or fans meet");
   add(repairs.inserted_vertices, "vertices inserted into edges with the same ends as another");

@@ -32,6 +32,8 @@ struct Sheet {
   std::int64_t flipped = 0;
   double volume = 0;  ///< signed, with the orientation of the first face throughout
   bool is_closed = true;
+  std::vector<Index> contradictions;  ///< half-edges that join faces of different sides, one an edge
+  std::vector<Index> turned;          ///< likewise, whose faces run the same way in the input
 };
 
 /// Orients the pieces that the twins join.
@@ -52,6 +54,7 @@ class Orienter {
     for (Index seed = 0; seed < soup_.face_count(); ++seed) {
       if (side_[seed] != kUnseen) continue;
       const Sheet sheet = collect(seed);
+      if (cut_as_it_is(sheet)) continue;
       const bool flip_others = should_flip_others(sheet);
       for (const Index f : sheet.faces) flip[f] = (side_[f] == 1) == flip_others ? 1 : 0;
     }
@@ -61,8 +64,21 @@ class Orienter {
  private:
   static constexpr std::uint8_t kUnseen = 2;
 
-  /// Walks over a piece, notes which faces are turned against the first, and cuts the edges across
-  /// which that contradicts itself.
+  /// Cuts the edges across which the sides of a piece contradict each other, as it has only one; or,
+  /// where these are no fewer, those along which its faces run the same way already.
+  /// \return whether it was the latter, and no face is to be turned over
+  bool cut_as_it_is(const Sheet& sheet) {
+    if (sheet.contradictions.empty()) return false;
+    const bool as_it_is = sheet.turned.size() <= sheet.contradictions.size();
+    for (const Index h : as_it_is ? sheet.turned : sheet.contradictions) {
+      unpair(twin_, h);
+      ++repairs_.non_orientable_cuts;
+    }
+    return as_it_is;
+  }
+
+  /// Walks over a piece, and notes which faces are turned against the first, and where that
+  /// contradicts itself.
   Sheet collect(Index seed) {
     Sheet sheet;
     side_[seed] = 0;
@@ -78,12 +94,12 @@ class Orienter {
         const Index g = twin_[h] / 3;
         const bool turned = soup_.from(h) == soup_.from(twin_[h]);
         const auto side = static_cast<std::uint8_t>(side_[f] ^ (turned ? 1 : 0));
+        if (turned && h < twin_[h]) sheet.turned.push_back(h);
         if (side_[g] == kUnseen) {
           side_[g] = side;
           sheet.faces.push_back(g);
         } else if (side_[g] != side) {
-          unpair(twin_, h);
-          ++repairs_.non_orientable_cuts;
+          if (h < twin_[h]) sheet.contradictions.push_back(h);
           sheet.is_closed = false;
         }
       }

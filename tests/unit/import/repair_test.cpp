@@ -211,7 +211,11 @@ TEST(Repair, MoebiusBandIsCutOpen) {
     }
   }
   const ImportResult result = imported(band);
-  EXPECT_GT(count(result.report, "repairs.non_orientable_cuts"), 0);
+  // Where its faces run the same way, so that none is to be turned over.
+  EXPECT_EQ(count(result.report, "repairs.non_orientable_cuts"), 2);
+  EXPECT_EQ(count(result.report, "repairs.flipped_faces"), 0);
+  ASSERT_FALSE(result.report.warnings().empty());
+  EXPECT_NE(result.report.warnings()[0].find("only one side"), std::string::npos);
   const Census counts = census(result.mesh);
   EXPECT_EQ(counts.components, 1);
   EXPECT_EQ(counts.boundary_loops, 1);
