@@ -56,9 +56,10 @@ double crossing_depth(const std::array<Vec3, 3>& t, const std::array<Vec3, 3>& u
 std::int64_t count_touching(const std::vector<Vec3>& positions, const FaceTriangles& triangles,
                             const std::vector<std::array<Index, 2>>& pairs, double touching) {
   const auto triangles_of = [&](Index face) {
-    const auto of_face = std::ranges::equal_range(triangles.face, face);
-    return std::span(triangles.corners.begin() + (of_face.begin() - triangles.face.begin()),
-                     of_face.size());
+    const auto first = std::ranges::lower_bound(triangles.face, face);
+    const auto last = std::ranges::upper_bound(triangles.face, face);
+    return std::span(triangles.corners.begin() + (first - triangles.face.begin()),
+                     static_cast<std::size_t>(last - first));
   };
   return std::ranges::count_if(pairs, [&](const std::array<Index, 2>& pair) {
     return std::ranges::none_of(triangles_of(pair[0]), [&](const std::array<Index, 3>& one) {

@@ -32,8 +32,9 @@ struct Sheet {
   std::int64_t flipped = 0;
   double volume = 0;  ///< signed, with the orientation of the first face throughout
   bool is_closed = true;
-  std::vector<Index> contradictions;  ///< half-edges that join faces of different sides, one an edge
-  std::vector<Index> turned;          ///< likewise, whose faces run the same way in the input
+  std::vector<Index>
+      contradictions;         ///< half-edges that join faces of different sides, one an edge
+  std::vector<Index> turned;  ///< likewise, whose faces run the same way in the input
 };
 
 /// Orients the pieces that the twins join.
@@ -64,9 +65,9 @@ class Orienter {
  private:
   static constexpr std::uint8_t kUnseen = 2;
 
-  /// Cuts the edges across which the sides of a piece contradict each other, as it has only one; or,
-  /// where these are no fewer, those along which its faces run the same way already.
-  /// \return whether it was the latter, and no face is to be turned over
+  /// Cuts the edges across which the sides of a piece contradict each other, as it has only one;
+  /// or, where these are no fewer, those along which its faces run the same way already. \return
+  /// whether it was the latter, and no face is to be turned over
   bool cut_as_it_is(const Sheet& sheet) {
     if (sheet.contradictions.empty()) return false;
     const bool as_it_is = sheet.turned.size() <= sheet.contradictions.size();

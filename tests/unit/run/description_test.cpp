@@ -306,8 +306,9 @@ TEST_F(GoodPipeline, MarksInTheFoldersNameAreNoPattern) {
 }
 
 TEST_F(GoodPipeline, TheSpellingOfTheCommandLineIsAnsweredByThatOfFiles) {
-  for (const char* text : {"version: 1\nmodels: [a.obj]\nvariants: { fine: { trace.vertices: 3000 } }\n",
-                           "version: 1\nmodels: [a.obj]\noptions: { trace.vertices: 3000 }\n"}) {
+  for (const char* text :
+       {"version: 1\nmodels: [a.obj]\nvariants: { fine: { trace.vertices: 3000 } }\n",
+        "version: 1\nmodels: [a.obj]\noptions: { trace.vertices: 3000 }\n"}) {
     const std::string said = complaint(text);
     EXPECT_NE(said.find("'trace: { vertices: 3000 }'"), std::string::npos) << said;
   }
