@@ -52,6 +52,8 @@ constexpr double kTangled = 0.5;
 constexpr double kMended = 0.3;
 constexpr double kTangledResult = 0.1;
 constexpr int kMostTimesCloser = 4;
+/// The same where some cross after all that is done about single ones.
+constexpr int kMostTimesCloserAtLast = 1;
 /// Root mean square of the distance of lines, in mean cell lengths, from which on they are traced
 /// closer likewise: noise can hide the shape from them.
 constexpr double kTooFarOff = 0.15;
@@ -358,8 +360,8 @@ bool trace_freely(Session& session, const GoalStages& stages, std::int64_t feedb
 
 /// Fits what the present lines give, with some more vertices by dividing the worst cells, and again
 /// with closer lines where a detail is lost and no faces cross.
-/// \param left  share of these, as in LineAim \return the port of the result
-std::string fit_freely(Session& session, const GoalStages& stages, double left) {
+/// \param left  share of these, as in LineAim
+Attempt fit_freely(const Session& session, const GoalStages& stages, double left) {
   const std::int64_t count = count_of(session, "quads", Counted::vertices);
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
   const Attempt first =
@@ -371,11 +373,16 @@ std::string fit_freely(Session& session, const GoalStages& stages, double left) 
   };
   // On broken meshes faces cross whatever is tried.
   const bool is_sound = first.places.empty();
-  session =
-      is_sound ? mend_by_closer_lines(first, stages, aim, want_closer, never_give_up, crossing).done
-               : first.done;
-  if (session.has("uncrossed")) session.keep(stages.uncross);
-  return result_port(session);
+  return is_sound ? mend_by_closer_lines(first, stages, aim, want_closer, never_give_up, crossing)
+                  : first;
+}
+
+/// Whether closer lines may keep faces of a result from crossing: not where the input's do.
+bool may_be_parted(const Attempt& attempt) {
+  if (attempt.places.empty() || !may_be_too_coarse(attempt.done, "quads")) return false;
+  CrossingPlaces crossing(attempt.done.get<TriMesh>("mesh"));
+  crossing.of(attempt.done.get<QuadMesh>(result_port(attempt.done)).mesh);
+  return !crossing.input_crosses();
 }
 
 }  // namespace
@@ -411,8 +418,25 @@ std::string follow_spacing(Session& session, const GoalStages& stages,
   // A density says where vertices go, not the errors.
   const std::int64_t rounds =
       feedback_rounds.value_or(session.has("density") ? 0 : kFeedbackRounds);
-  const bool by_errors = trace_freely(session, stages, rounds) && goes_by_errors(session, stages);
-  return fit_freely(session, stages, by_errors ? kLeftForWorst : 0);
+  const auto attempt = [&] {
+    Session traced = session;
+    const bool by_errors = trace_freely(traced, stages, rounds) && goes_by_errors(traced, stages);
+    return fit_freely(traced, stages, by_errors ? kLeftForWorst : 0);
+  };
+  Attempt best = attempt();
+  for (int i = 0; i < kMostTimesCloserAtLast && may_be_parted(best); ++i) {
+    session.say(fmt::format("{} faces cross; tracing closer lines", best.places.size()));
+    scale_lines(stages, kCloser * line_scale(stages));
+    Attempt other = attempt();
+    if (other.places.size() < best.places.size()) {
+      best = std::move(other);
+    } else {
+      keep_attempt(best, stages);
+    }
+  }
+  session = best.done;
+  if (session.has("uncrossed")) session.keep(stages.uncross);
+  return result_port(session);
 }
 
 std::string meet_tolerance(Session& session, const GoalStages& stages, const std::string& tolerance,
@@ -432,7 +456,8 @@ std::string meet_tolerance(Session& session, const GoalStages& stages, const std
         "warning: with --pure-quads cells are not divided: the tolerance steers the spacing of "
         "lines, and may be exceeded");
     trace_and_mesh(session, stages);
-    return fit_freely(session, stages, 0);
+    session = fit_freely(session, stages, 0).done;
+    return result_port(session);
   }
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
   const Attempt first = trace_within(session, stages, crossing, kCloserLines);

@@ -42,6 +42,8 @@ class CrossingPlaces {
   /// faces: sheets on top of each other, where all that is measured takes many times as long, says
   /// little, and what is put there crosses again.
   [[nodiscard]] bool is_stacked() const { return is_stacked_; }
+  /// Whether faces of the input cross near those of results that meet others.
+  [[nodiscard]] bool input_crosses() const { return !crossing_.empty(); }
 
  private:
   /// A ball around a face of a result, relative to the input's origin.
