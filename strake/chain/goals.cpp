@@ -381,6 +381,7 @@ Attempt fit_freely(const Session& session, const GoalStages& stages, double left
 bool may_be_parted(const Attempt& attempt) {
   if (attempt.places.empty() || !may_be_too_coarse(attempt.done, "quads")) return false;
   CrossingPlaces crossing(attempt.done.get<TriMesh>("mesh"));
+  // Of the input it knows what is near the faces that it was asked for.
   crossing.of(attempt.done.get<QuadMesh>(result_port(attempt.done)).mesh);
   return !crossing.input_crosses();
 }
