@@ -2,6 +2,7 @@
 
 #include <geos_c.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -12,6 +13,9 @@
 namespace strake {
 namespace {
 
+/// Angles, radians, by which a drawing is turned until GEOS takes it: where the lowest points of
+/// holes share a coordinate, as in a grid, it may fail to join these to the outline.
+constexpr std::array<double, 3> kTurns = {0, 1, 2};
 /// Share of the area by which triangles may miss it.
 constexpr double kRounding = 1e-9;
 
@@ -100,15 +104,12 @@ std::optional<std::map<std::pair<double, double>, Index>> point_at_place(
   return point_at;
 }
 
-}  // namespace
-
-std::vector<Triangle> triangulate_outlines(const std::vector<Vec2>& points,
-                                           const std::vector<Outline>& outlines) {
+/// Triangles of points; nothing where they do not fill what the outlines bound.
+std::vector<Triangle> triangulate_area(const Geos& geos, const Geos::Geometry& area,
+                                       const std::vector<Vec2>& points,
+                                       const std::vector<Outline>& outlines) {
   const auto point_at = point_at_place(points, outlines);
   if (!point_at) return {};
-  const Geos geos;
-  const Geos::Geometry area = geos.area_within(points, outlines);
-  if (!area) return {};
   double left = 0;
   for (const Outline& outline : outlines) left += signed_area(points, outline);
   const double whole = left;
@@ -127,6 +128,22 @@ std::vector<Triangle> triangulate_outlines(const std::vector<Vec2>& points,
   }
   if (!(std::abs(left) <= kRounding * whole)) return {};
   return triangles;
+}
+
+}  // namespace
+
+std::vector<Triangle> triangulate_outlines(const std::vector<Vec2>& points,
+                                           const std::vector<Outline>& outlines) {
+  const Geos geos;
+  for (const double turn : kTurns) {
+    std::vector<Vec2> turned = points;
+    for (Vec2& point : turned) point = Eigen::Rotation2Dd(turn) * point;
+    const Geos::Geometry area = geos.area_within(turned, outlines);
+    if (!area) break;
+    std::vector<Triangle> triangles = triangulate_area(geos, area, turned, outlines);
+    if (!triangles.empty()) return triangles;
+  }
+  return {};
 }
 
 }  // namespace strake

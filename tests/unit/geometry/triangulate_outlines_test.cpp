@@ -89,6 +89,17 @@ TEST(TriangulateOutlines, FillsStarsWithHoles) {
   }
 }
 
+// Corners of holes and of the outline share the coordinate along which GEOS sorts what it joins.
+TEST(TriangulateOutlines, FillsAroundHolesInRows) {
+  const std::vector<Vec2> points = {{16, -127}, {134, 25},  {-37, 24},  {-49, -68}, {9, -98},
+                                    {13, -98},  {15, -101}, {-35, -80}, {-37, -76}, {-35, -73},
+                                    {-37, -66}, {-35, -63}, {-30, -63}};
+  const Outlines outlines = {range(0, 4), {4, 5, 6}, {7, 8, 9}, {10, 11, 12}};
+  const Triangles triangles = triangulate_outlines(points, outlines);
+  EXPECT_EQ(triangles.size(), points.size() + 2 * 3 - 2);
+  expect_filled(points, outlines, triangles);
+}
+
 // Of four points on a rhombus the shorter diagonal joins two; of a longer one neither is Delaunay.
 TEST(TriangulateOutlines, IsDelaunay) {
   const std::vector<Vec2> points = {{0, 0}, {3, -1}, {6, 0}, {3, 1}};
