@@ -35,7 +35,8 @@ std::vector<float> bend_angles(const TriMesh& mesh, const std::vector<Vec3>& nor
 }
 
 /// What the median bend around an edge exceeds that of a smooth, finely meshed surface by. The
-/// edges at its four vertices count that are bent by at most `angle`.
+/// edges at its four vertices count that are bent by at most `angle`, but for the spokes of an even
+/// fan: those around the tip of a cone are many, and no noise.
 class Roughness {
  public:
   Roughness(const TriMesh& mesh, const std::vector<float>& bend, double angle)
@@ -45,9 +46,7 @@ class Roughness {
     bends_.clear();
     for (const Index v : {mesh_.from(h), mesh_.to(h), mesh_.from(TriMesh::prev(h)),
                           mesh_.from(TriMesh::prev(mesh_.twin[h]))}) {
-      for_each_outgoing(mesh_, v, [&](Index e) {
-        if (mesh_.twin[e] != kNone && bend_[e] <= angle_) bends_.push_back(bend_[e]);
-      });
+      add_bends_at(v);
     }
     if (bends_.empty()) return 0;
     const auto middle = bends_.begin() + static_cast<std::ptrdiff_t>(bends_.size() / 2);
@@ -65,11 +64,37 @@ class Roughness {
 
  private:
   static constexpr double kSmooth = 5 * kDegree;
+  /// Spokes that are bent like the two beside them make an even fan, if they are so many.
+  static constexpr std::size_t kFewestSpokes = 5;
+  static constexpr float kEven = 0.8F;  ///< share of the larger bend that the smaller one has
+
+  void add_bends_at(Index v) {
+    around_.clear();
+    for_each_outgoing(mesh_, v, [&](Index e) {
+      around_.push_back(mesh_.twin[e] != kNone ? bend_[e] : 0);
+    });
+    const std::size_t count = around_.size();
+    const auto is_spoke = [&](std::size_t i) {
+      const auto [least, most] =
+          std::minmax({around_[(i + count - 1) % count], around_[i], around_[(i + 1) % count]});
+      return least > kSmooth && least >= kEven * most;
+    };
+    std::size_t spokes = 0;
+    for (std::size_t i = 0; i < count; ++i) spokes += is_spoke(i) ? 1 : 0;
+    const bool is_fan = spokes >= kFewestSpokes;
+    std::size_t i = 0;
+    for_each_outgoing(mesh_, v, [&](Index e) {
+      const bool counts = mesh_.twin[e] != kNone && bend_[e] <= angle_ && !(is_fan && is_spoke(i));
+      if (counts) bends_.push_back(bend_[e]);
+      ++i;
+    });
+  }
 
   const TriMesh& mesh_;
   const std::vector<float>& bend_;
   double angle_;
   std::vector<float> bends_;
+  std::vector<float> around_;  ///< bends at one vertex
 };
 
 Vec3 direction(const TriMesh& mesh, Index h) {

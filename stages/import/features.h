@@ -40,7 +40,8 @@ struct FeatureCounts {
 ///
 /// An edge is a crease where its faces' normals differ by more than `angle_deg`, and by more than
 /// that by thrice the roughness there: what the median bend of the edges around it (those bent by
-/// at most `angle_deg`) exceeds 5 degrees by. So noise and detail at the limit of the sampling are
+/// at most `angle_deg`, without the spokes of a tip, five or more that are bent alike) exceeds 5
+/// degrees by. So noise and detail at the limit of the sampling are
 /// no creases, and on smooth faces the angle decides alone. Where there is no roughness, edges bent
 /// by more than half of `angle_deg` are creases, too, if they stand alone (`stands_alone`) and make
 /// lines of 5 % of the diagonal, or lie across a strip between features or boundaries in the end

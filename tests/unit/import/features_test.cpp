@@ -110,6 +110,32 @@ TEST(Features, CoarseRoundsAreSmoothHoweverFewFacesTheyHave) {
   EXPECT_EQ(feature_edges(imported(shapes::merged(cylinder)).mesh), 0);
 }
 
+/// A cone of `sides` triangles that meet in its tip, standing on a plate around it.
+PolyMesh cone(int sides, double height) {
+  PolyMesh soup;
+  soup.positions.emplace_back(0, 0, height);
+  for (const double radius : {1.0, 2.0}) {
+    for (int i = 0; i < sides; ++i) {
+      const double angle = 360.0 / sides * i * kDegree;
+      soup.positions.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0);
+    }
+  }
+  for (Index i = 0; i < sides; ++i) {
+    const Index next = (i + 1) % sides;
+    soup.add_face(std::array<Index, 3>{0, 1 + i, 1 + next});
+    soup.add_face(std::array<Index, 4>{1 + i, 1 + sides + i, 1 + sides + next, 1 + next});
+  }
+  return soup;
+}
+
+/// The spokes at the tip are bent, and more than all other edges around one of the base.
+TEST(Features, TheBaseOfACoarseConeIsKept) {
+  for (const int sides : {8, 12, 20, 32}) {
+    EXPECT_EQ(feature_edges(imported(cone(sides, 1.7)).mesh), sides);
+    EXPECT_EQ(feature_edges(imported(cone(sides, 1)).mesh), sides);
+  }
+}
+
 /// Where faces are wide, edges without neighbours of their kind on both sides are kept.
 TEST(Features, WideFacesAreNoRound) {
   EXPECT_EQ(feature_edges(imported(round(25, 2, 0.4)).mesh), 2 * 20);
