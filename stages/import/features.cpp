@@ -70,9 +70,8 @@ class Roughness {
 
   void add_bends_at(Index v) {
     around_.clear();
-    for_each_outgoing(mesh_, v, [&](Index e) {
-      around_.push_back(mesh_.twin[e] != kNone ? bend_[e] : 0);
-    });
+    for_each_outgoing(mesh_, v,
+                      [&](Index e) { around_.push_back(mesh_.twin[e] != kNone ? bend_[e] : 0); });
     const std::size_t count = around_.size();
     const auto is_spoke = [&](std::size_t i) {
       const auto [least, most] =
