@@ -48,7 +48,7 @@ PARALLEL = 2
 
 MOST_CONCAVE_PERCENT = 0.5
 COUNT_TOLERANCE = 0.1
-# Seconds of processor time for one model: four times what the slowest takes on an idle machine, as
+# Seconds of processor time for one model: several times what the slowest takes on an idle machine, as
 # neighbours on the same cores can double it; and how much longer it may take by the clock.
 TIME_LIMIT = {"default": 300, "tenth": 300, "quality": 300, "dirty": 60, "adversarial": 50,
               "tolerance": 120, "all": 120}
