@@ -115,8 +115,8 @@ void report_own_crossings(const TriMesh& reference, const std::vector<Vec3>& pos
   const Vec3 place = own.place + reference.origin;
   report.warn(fmt::format(
       "{} pair{} of faces of the result cross{}, and the input itself has {} such pair{}, one near "
-      "{}: the result follows it and crosses itself there, too; where it "
-      "should not, unite the parts of the model first (a boolean union), or repair it",
+      "{}: there the result crosses itself, too; where it should not, unite the parts of the model "
+      "first (a boolean union), or repair it",
       crossing, crossing == 1 ? "" : "s", crossing == 1 ? "es" : "", own.pairs,
       own.pairs == 1 ? "" : "s", place_text(place, reference.diagonal)));
 }

@@ -69,7 +69,7 @@ class Refinement {
       : mesh_(mesh),
         quads_(std::move(quads)),
         points_(mesh),
-        crossing_(mesh),
+        crossing_(mesh, Tangles::kFaults),
         max_sides_(static_cast<std::size_t>(most_sides)) {
     for (Index f = 0; f < quads_.mesh.face_count(); ++f) {
       max_sides_ = std::max(max_sides_, quads_.mesh.face(f).size());

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <set>
 #include <utility>
 
+#include "common/core/disjoint_sets.h"
 #include "common/geometry/face_crossings/box_tree.h"
 #include "common/geometry/face_crossings/face_crossings.h"
 #include "common/geometry/face_crossings/penetration.h"
@@ -22,6 +24,11 @@ constexpr std::size_t kMostLooks = 8;
 /// Half the side of such a box over the reach of its place: faces that are asked for later are
 /// often smaller, and beside it.
 constexpr double kLookedInto = 3;
+/// Where two sheets cross there are about as many pairs of faces that do as faces. With twice as
+/// many, and many times as many pairs as of the input and a few more, cells are tangled.
+constexpr std::size_t kPairsPerFace = 2;
+constexpr std::size_t kMostPairs = 3;
+constexpr std::size_t kFewPairs = 10;
 /// Share of the diagonal within which something is on an edge that sheets of the input share: what
 /// files of single precision leave of a common edge is less, and nobody sees it.
 constexpr double kOnEdge = 1e-6;
@@ -84,6 +91,7 @@ MeetingFaces CrossingPlaces::meeting(const PolyMesh& result) {
   tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t i) {
     is_own[faces[i]] = is_crossed_by_itself(places[i]) ? 1 : 0;
   });
+  if (tangles_ == Tangles::kFaults) forget_tangles(pairs, faces, places, is_own);
   std::set<Index> met;
   crossed.clear();
   for (const auto& pair : pairs) {
@@ -93,6 +101,43 @@ MeetingFaces CrossingPlaces::meeting(const PolyMesh& result) {
     if (!do_touch(result, pair[0], pair[1])) crossed.insert(pair.begin(), pair.end());
   }
   return {{met.begin(), met.end()}, {crossed.begin(), crossed.end()}};
+}
+
+void CrossingPlaces::forget_tangles(const std::vector<std::array<Index, 2>>& pairs,
+                                    const std::vector<Index>& faces,
+                                    const std::vector<Place>& places,
+                                    std::vector<std::uint8_t>& is_own) const {
+  DisjointSets clusters(static_cast<Index>(is_own.size()));
+  const auto is_own_pair = [&](const std::array<Index, 2>& pair) {
+    return is_own[pair[0]] != 0 || is_own[pair[1]] != 0;
+  };
+  for (const auto& pair : pairs) {
+    if (is_own_pair(pair)) clusters.unite(pair[0], pair[1]);
+  }
+  std::map<Index, Cluster> found;
+  for (const auto& pair : pairs) {
+    if (is_own_pair(pair)) ++found[clusters.find(pair[0])].pairs;
+  }
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const auto at = found.find(clusters.find(faces[i]));
+    if (at != found.end()) at->second.faces.push_back(i);
+  }
+  std::vector<Index> counted_for(crossing_.size(), kNone);
+  for (const auto& [root, cluster] : found) {
+    if (cluster.pairs < kPairsPerFace * cluster.faces.size()) continue;
+    const std::size_t enough = (cluster.pairs - std::min(cluster.pairs, kFewPairs)) / kMostPairs;
+    std::size_t own = 0;
+    for (const std::size_t i : cluster.faces) {
+      if (own >= enough) break;
+      visit_crossings(places[i], [&](Index k) {
+        own += counted_for[k] != root ? 1 : 0;
+        counted_for[k] = root;
+        return own < enough;
+      });
+    }
+    if (own >= enough) continue;
+    for (const std::size_t i : cluster.faces) is_own[faces[i]] = 0;
+  }
 }
 
 std::vector<Vec3> CrossingPlaces::middles(const PolyMesh& result,
@@ -139,18 +184,27 @@ void CrossingPlaces::look_around(const std::vector<Place>& places) {
     triangles.face.push_back(i);
     is_wanted[i] = std::ranges::binary_search(wanted, near[i]) ? 1 : 0;
   }
-  std::set<Index> faces;
   for (const auto& [i, j] : find_crossing_faces(mesh_.positions, triangles, is_wanted, {})) {
-    faces.insert({near[i], near[j]});
+    crossing_.push_back(box_of(mesh_, near[i]).merged(box_of(mesh_, near[j])));
   }
-  if (faces.empty()) return;
-  own_.reset();  // which refers to them
-  for (const Index f : faces) crossing_.push_back(mesh_.faces[f]);
-  own_ = std::make_unique<SurfaceDistance>(mesh_.positions, crossing_);
+  own_ = BoxTree(crossing_);
+}
+
+template <class Visit>
+void CrossingPlaces::visit_crossings(const Place& place, Visit visit) const {
+  own_.visit_touching_while(box_around(place.middle, place.reach), [&](Index i) {
+    const double far = crossing_[i].squaredExteriorDistance(place.middle);
+    return far > place.reach * place.reach || visit(i);
+  });
 }
 
 bool CrossingPlaces::is_crossed_by_itself(const Place& place) const {
-  return own_ != nullptr && own_->closest_within(place.middle, place.reach).triangle != kNone;
+  bool is_crossed = false;
+  visit_crossings(place, [&](Index) {
+    is_crossed = true;
+    return false;
+  });
+  return is_crossed;
 }
 
 bool CrossingPlaces::do_touch(const PolyMesh& result, Index face, Index other) {

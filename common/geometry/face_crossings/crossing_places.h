@@ -10,7 +10,6 @@
 #include "common/geometry/face_crossings/box_tree.h"
 #include "common/geometry/face_crossings/placed_face.h"
 #include "common/geometry/face_crossings/shared_edges.h"
-#include "common/geometry/surface_distance/surface_distance.h"
 
 namespace strake {
 
@@ -22,14 +21,18 @@ struct MeetingFaces {
   std::vector<Index> crossing;
 };
 
+/// What is thought of faces of a result that are tangled where the input crosses itself.
+enum class Tangles : std::uint8_t { kAsTheInput, kFaults };
+
 /// Finds where faces of results cross although the surface does not.
 class CrossingPlaces {
  public:
   /// \param mesh  the input, kept by reference
-  explicit CrossingPlaces(const TriMesh& mesh) : mesh_(mesh) {}
+  explicit CrossingPlaces(const TriMesh& mesh, Tangles tangles = Tangles::kAsTheInput)
+      : mesh_(mesh), tangles_(tangles) {}
 
   /// The faces that meet others, but for pairs within reach of which, of either face, the input
-  /// crosses itself.
+  /// crosses itself; those that are tangled count there, too, if tangles are faults.
   MeetingFaces meeting(const PolyMesh& result);
   /// All of them.
   std::vector<Index> faces_of(const PolyMesh& result) { return meeting(result).all; }
@@ -52,6 +55,12 @@ class CrossingPlaces {
     double reach = 0;  ///< of its corners
   };
 
+  /// Pairs of faces of a result that hang together.
+  struct Cluster {
+    std::size_t pairs = 0;
+    std::vector<std::size_t> faces;
+  };
+
   /// Boxes that were looked into at the same time.
   struct Look {
     std::vector<BoxTree::Box> boxes;
@@ -64,6 +73,16 @@ class CrossingPlaces {
   void look_around(const std::vector<Place>& places);
   /// Whether the input crosses itself within reach of a place that was looked around.
   [[nodiscard]] bool is_crossed_by_itself(const Place& place) const;
+  /// Calls visit(i) for the places within reach where the input crosses itself, as long as it
+  /// returns true.
+  template <class Visit>
+  void visit_crossings(const Place& place, Visit visit) const;
+  /// Takes the mark off faces of a result that are tangled where the input crosses itself.
+  /// \param faces, places  those that meet others
+  /// \param is_own         [F] 1: the input crosses itself there
+  void forget_tangles(const std::vector<std::array<Index, 2>>& pairs,
+                      const std::vector<Index>& faces, const std::vector<Place>& places,
+                      std::vector<std::uint8_t>& is_own) const;
   /// Whether two faces that meet only touch each other.
   [[nodiscard]] bool do_touch(const PolyMesh& result, Index face, Index other);
   /// Whether an edge of the face runs along edges that sheets share, and the other one passes
@@ -72,12 +91,13 @@ class CrossingPlaces {
                                           const PlacedFace& other, double depth) const;
 
   const TriMesh& mesh_;
+  Tangles tangles_;
   bool is_stacked_ = false;
   std::vector<Look> looks_;
-  std::vector<std::uint8_t> is_seen_;           ///< [F] of the input: whether it crosses is known
-  std::vector<std::array<Index, 3>> crossing_;  ///< those seen that cross, and what they cross
-  std::unique_ptr<SurfaceDistance> own_;        ///< of those; nullptr: none
-  std::unique_ptr<SharedEdges> shared_;         ///< nullptr: not looked for yet
+  std::vector<std::uint8_t> is_seen_;    ///< [F] of the input: whether it crosses is known
+  std::vector<BoxTree::Box> crossing_;   ///< around pairs of those seen that cross
+  BoxTree own_{crossing_};               ///< of these
+  std::unique_ptr<SharedEdges> shared_;  ///< nullptr: not looked for yet
 };
 
 }  // namespace strake

@@ -96,6 +96,28 @@ TEST(CrossingPlaces, AreNotWhereEitherFaceIsNearACrossingOfTheInput) {
 }
 
 /// The input is looked at around one place after the other, and at last everywhere.
+/// Squares through the plane z = 0, so many along x and along y, which pass through each other.
+PolyMesh with_uprights(int along_x, int along_y) {
+  PolyMesh result;
+  add_square(result, Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(1, 1, 0), Vec3(-1, 1, 0));
+  for (int i = 0; i < along_x; ++i) add_upright(result, 0, 0.001 * i, 0.5);
+  for (int i = 0; i < along_y; ++i) {
+    const double x = 0.001 * i;
+    add_square(result, Vec3(x, -0.5, -0.5), Vec3(x, 0.5, -0.5), Vec3(x, 0.5, 0.5),
+               Vec3(x, -0.5, 0.5));
+  }
+  return result;
+}
+
+TEST(CrossingPlaces, AreWhereCellsAreTangledAlthoughTheInputCrossesItself) {
+  const TriMesh surface = triangles_of(two_squares(Vec3::Zero(), -0.3));
+  CrossingPlaces crossing(surface, Tangles::kFaults);
+  EXPECT_TRUE(crossing.faces_of(with_uprights(5, 0)).empty());
+  EXPECT_TRUE(crossing.faces_of(with_uprights(60, 0)).empty());  // finer, and not tangled
+  EXPECT_EQ(crossing.faces_of(with_uprights(10, 10)).size(), 21u);
+  EXPECT_TRUE(CrossingPlaces(surface).faces_of(with_uprights(10, 10)).empty());
+}
+
 TEST(CrossingPlaces, AreTheSameHoweverManyWereAskedForBefore) {
   constexpr int kPlaces = 14;
   const auto middle = [](int i) { return Vec3(10 * i, 0, 0); };
