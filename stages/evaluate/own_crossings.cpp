@@ -14,6 +14,7 @@
 #include "common/geometry/face_crossings/box_tree.h"
 #include "common/geometry/face_crossings/face_crossings.h"
 #include "common/geometry/face_crossings/penetration.h"
+#include "common/geometry/topology/topology.h"
 
 namespace strake::evaluation {
 namespace {
@@ -78,7 +79,10 @@ OwnCrossings find_own_crossings(const TriMesh& mesh) {
   OwnCrossings own;
   const double touching = kTouchingDepth * mesh.diagonal;
   double deepest = touching;
-  for (const auto& [f, g] : find_crossing_faces(mesh.positions, triangles)) {
+  const auto pairs = find_crossing_faces(mesh.positions, triangles);
+  if (pairs.empty()) return own;
+  const std::vector<Index> component = face_components(mesh);
+  for (const auto& [f, g] : pairs) {
     const std::array<Vec3, 3> one = places_of(mesh.positions, mesh.faces[f]);
     const std::array<Vec3, 3> two = places_of(mesh.positions, mesh.faces[g]);
     const double depth = crossing_depth(one, two, touching);
@@ -87,6 +91,7 @@ OwnCrossings find_own_crossings(const TriMesh& mesh) {
       continue;
     }
     ++own.pairs;
+    own.between_parts = own.between_parts || component[f] != component[g];
     if (depth <= deepest) continue;
     deepest = depth;
     own.place = box_of(one).intersection(box_of(two)).center();
@@ -115,10 +120,11 @@ void report_own_crossings(const TriMesh& reference, const std::vector<Vec3>& pos
   const Vec3 place = own.place + reference.origin;
   report.warn(fmt::format(
       "{} pair{} of faces of the result cross{}, and the input itself has {} such pair{}, one near "
-      "{}: there the result crosses itself, too; where it should not, unite the parts of the model "
-      "first (a boolean union), or repair it",
+      "{}: there the result crosses itself, too; where it should not, {}",
       crossing, crossing == 1 ? "" : "s", crossing == 1 ? "es" : "", own.pairs,
-      own.pairs == 1 ? "" : "s", place_text(place, reference.diagonal)));
+      own.pairs == 1 ? "" : "s", place_text(place, reference.diagonal),
+      own.between_parts ? "unite the parts of the model first (a boolean union), or repair it"
+                        : "repair the model first"));
 }
 
 }  // namespace strake::evaluation

@@ -91,7 +91,12 @@ MeetingFaces CrossingPlaces::meeting(const PolyMesh& result) {
   tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t i) {
     is_own[faces[i]] = is_crossed_by_itself(places[i]) ? 1 : 0;
   });
-  if (tangles_ == Tangles::kFaults) forget_tangles(pairs, faces, places, is_own);
+  if (tangles_ == Tangles::kFaults) {
+    for (const Cluster& cluster : clusters_of(pairs, faces, is_own)) {
+      if (!is_tangled(cluster, places)) continue;
+      for (const std::size_t i : cluster.faces) is_own[faces[i]] = 0;
+    }
+  }
   std::set<Index> met;
   crossed.clear();
   for (const auto& pair : pairs) {
@@ -103,41 +108,39 @@ MeetingFaces CrossingPlaces::meeting(const PolyMesh& result) {
   return {{met.begin(), met.end()}, {crossed.begin(), crossed.end()}};
 }
 
-void CrossingPlaces::forget_tangles(const std::vector<std::array<Index, 2>>& pairs,
-                                    const std::vector<Index>& faces,
-                                    const std::vector<Place>& places,
-                                    std::vector<std::uint8_t>& is_own) const {
-  DisjointSets clusters(static_cast<Index>(is_own.size()));
-  const auto is_own_pair = [&](const std::array<Index, 2>& pair) {
-    return is_own[pair[0]] != 0 || is_own[pair[1]] != 0;
-  };
+std::vector<CrossingPlaces::Cluster> CrossingPlaces::clusters_of(
+    const std::vector<std::array<Index, 2>>& pairs, const std::vector<Index>& faces,
+    const std::vector<std::uint8_t>& is_own) {
+  DisjointSets sets(static_cast<Index>(is_own.size()));
+  std::vector<Index> of_pairs;  // a face of each
   for (const auto& pair : pairs) {
-    if (is_own_pair(pair)) clusters.unite(pair[0], pair[1]);
+    if (is_own[pair[0]] == 0 && is_own[pair[1]] == 0) continue;
+    sets.unite(pair[0], pair[1]);
+    of_pairs.push_back(pair[0]);
   }
-  std::map<Index, Cluster> found;
-  for (const auto& pair : pairs) {
-    if (is_own_pair(pair)) ++found[clusters.find(pair[0])].pairs;
-  }
+  std::map<Index, Cluster> clusters;
+  for (const Index f : of_pairs) ++clusters[sets.find(f)].pairs;
   for (std::size_t i = 0; i < faces.size(); ++i) {
-    const auto at = found.find(clusters.find(faces[i]));
-    if (at != found.end()) at->second.faces.push_back(i);
+    const auto at = clusters.find(sets.find(faces[i]));
+    if (at != clusters.end()) at->second.faces.push_back(i);
   }
-  std::vector<Index> counted_for(crossing_.size(), kNone);
-  for (const auto& [root, cluster] : found) {
-    if (cluster.pairs < kPairsPerFace * cluster.faces.size()) continue;
-    const std::size_t enough = (cluster.pairs - std::min(cluster.pairs, kFewPairs)) / kMostPairs;
-    std::size_t own = 0;
-    for (const std::size_t i : cluster.faces) {
-      if (own >= enough) break;
-      visit_crossings(places[i], [&](Index k) {
-        own += counted_for[k] != root ? 1 : 0;
-        counted_for[k] = root;
-        return own < enough;
-      });
-    }
-    if (own >= enough) continue;
-    for (const std::size_t i : cluster.faces) is_own[faces[i]] = 0;
+  std::vector<Cluster> result;
+  for (auto& entry : clusters) result.push_back(std::move(entry.second));
+  return result;
+}
+
+bool CrossingPlaces::is_tangled(const Cluster& cluster, const std::vector<Place>& places) const {
+  if (cluster.pairs < kPairsPerFace * cluster.faces.size()) return false;
+  const std::size_t few = (cluster.pairs - std::min(cluster.pairs, kFewPairs)) / kMostPairs;
+  std::set<Index> own;
+  for (const std::size_t i : cluster.faces) {
+    if (own.size() >= few) return false;
+    visit_crossings(places[i], [&](Index k) {
+      own.insert(k);
+      return own.size() < few;
+    });
   }
+  return own.size() < few;
 }
 
 std::vector<Vec3> CrossingPlaces::middles(const PolyMesh& result,

@@ -58,7 +58,7 @@ class CrossingPlaces {
   /// Pairs of faces of a result that hang together.
   struct Cluster {
     std::size_t pairs = 0;
-    std::vector<std::size_t> faces;
+    std::vector<std::size_t> faces;  ///< places in the list of those that meet others
   };
 
   /// Boxes that were looked into at the same time.
@@ -77,12 +77,15 @@ class CrossingPlaces {
   /// returns true.
   template <class Visit>
   void visit_crossings(const Place& place, Visit visit) const;
-  /// Takes the mark off faces of a result that are tangled where the input crosses itself.
-  /// \param faces, places  those that meet others
-  /// \param is_own         [F] 1: the input crosses itself there
-  void forget_tangles(const std::vector<std::array<Index, 2>>& pairs,
-                      const std::vector<Index>& faces, const std::vector<Place>& places,
-                      std::vector<std::uint8_t>& is_own) const;
+  /// The pairs that meet where the input crosses itself.
+  /// \param faces   of the pairs
+  /// \param is_own  [F] 1: the input crosses itself there
+  static std::vector<Cluster> clusters_of(const std::vector<std::array<Index, 2>>& pairs,
+                                          const std::vector<Index>& faces,
+                                          const std::vector<std::uint8_t>& is_own);
+  /// Whether there are many more pairs than two sheets that cross have, and the input.
+  /// \param places  of all faces that meet others
+  [[nodiscard]] bool is_tangled(const Cluster& cluster, const std::vector<Place>& places) const;
   /// Whether two faces that meet only touch each other.
   [[nodiscard]] bool do_touch(const PolyMesh& result, Index face, Index other);
   /// Whether an edge of the face runs along edges that sheets share, and the other one passes

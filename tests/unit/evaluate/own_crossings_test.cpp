@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -96,6 +97,27 @@ TEST(OwnCrossings, OfPartsThatTouchInTheInputAreExplained) {
   EXPECT_TRUE(std::ranges::any_of(report.warnings(), [](const std::string& warning) {
     return warning.find("only touch") != std::string::npos;
   }));
+}
+
+/// Parts can be united, a part that crosses itself cannot.
+TEST(OwnCrossings, AreToldApartFromPartsInEachOther) {
+  const PolyMesh parts = two_cubes(Vec3(0.3, 0.4, 0.6));
+  EXPECT_TRUE(crossings_of(parts).between_parts);
+  EXPECT_NE(crossing_warning(evaluated(shapes::reference(parts), parts)).find("unite the parts"),
+            std::string::npos);
+  // A strip that comes back from below through the triangle where it begins.
+  PolyMesh strip;
+  strip.positions = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1.5, 1, -1}, {1.2, 1.1, 1}};
+  for (const auto& face :
+       std::vector<std::array<Index, 3>>{{0, 1, 2}, {1, 0, 3}, {1, 3, 4}, {4, 3, 5}}) {
+    strip.add_face(face);
+  }
+  const OwnCrossings own = crossings_of(strip);
+  EXPECT_EQ(own.pairs, 1);
+  EXPECT_FALSE(own.between_parts);
+  const std::string warning = crossing_warning(evaluated(shapes::reference(strip), strip));
+  EXPECT_NE(warning.find("repair the model"), std::string::npos);
+  EXPECT_EQ(warning.find("unite"), std::string::npos);
 }
 
 TEST(OwnCrossings, AreTheSameFarAway) {
