@@ -14,6 +14,7 @@
 #include "common/geometry/face_crossings/penetration.h"
 #include "common/geometry/face_crossings/placed_face.h"
 #include "common/geometry/poly_topology/face_shape.h"
+#include "common/geometry/surface_distance/surface_distance.h"
 
 namespace strake {
 namespace {
@@ -188,16 +189,23 @@ void CrossingPlaces::look_around(const std::vector<Place>& places) {
     is_wanted[i] = std::ranges::binary_search(wanted, near[i]) ? 1 : 0;
   }
   for (const auto& [i, j] : find_crossing_faces(mesh_.positions, triangles, is_wanted, {})) {
-    crossing_.push_back(box_of(mesh_, near[i]).merged(box_of(mesh_, near[j])));
+    crossing_.push_back({near[i], near[j]});
   }
-  own_ = BoxTree(crossing_);
+  boxes.clear();
+  for (const auto& [f, g] : crossing_) boxes.push_back(box_of(mesh_, f).merged(box_of(mesh_, g)));
+  own_ = BoxTree(boxes);
 }
 
 template <class Visit>
 void CrossingPlaces::visit_crossings(const Place& place, Visit visit) const {
+  const auto is_within_reach = [&](Index f) {
+    const auto& [a, b, c] = mesh_.faces[f];
+    return closest_point_on_triangle(place.middle, mesh_.positions[a], mesh_.positions[b],
+                                     mesh_.positions[c])
+               .distance <= place.reach;
+  };
   own_.visit_touching_while(box_around(place.middle, place.reach), [&](Index i) {
-    const double far = crossing_[i].squaredExteriorDistance(place.middle);
-    return far > place.reach * place.reach || visit(i);
+    return std::ranges::none_of(crossing_[i], is_within_reach) || visit(i);
   });
 }
 

@@ -97,10 +97,10 @@ class CrossingPlaces {
   Tangles tangles_;
   bool is_stacked_ = false;
   std::vector<Look> looks_;
-  std::vector<std::uint8_t> is_seen_;    ///< [F] of the input: whether it crosses is known
-  std::vector<BoxTree::Box> crossing_;   ///< around pairs of those seen that cross
-  BoxTree own_{crossing_};               ///< of these
-  std::unique_ptr<SharedEdges> shared_;  ///< nullptr: not looked for yet
+  std::vector<std::uint8_t> is_seen_;           ///< [F] of the input: whether it crosses is known
+  std::vector<std::array<Index, 2>> crossing_;  ///< pairs of those seen that cross
+  BoxTree own_{{}};                             ///< around these
+  std::unique_ptr<SharedEdges> shared_;         ///< nullptr: not looked for yet
 };
 
 }  // namespace strake

@@ -96,6 +96,17 @@ TEST(CrossingPlaces, AreNotWhereEitherFaceIsNearACrossingOfTheInput) {
 }
 
 /// The input is looked at around one place after the other, and at last everywhere.
+/// Faces of parts are large: what is only in the box around two of them is not on them.
+TEST(CrossingPlaces, AreBesideLargeFacesOfTheInputThatCross) {
+  const TriMesh surface = triangles_of(two_squares(Vec3::Zero(), -0.3));
+  CrossingPlaces crossing(surface);
+  PolyMesh result;
+  const auto at = [](double x, double y, double z) { return Vec3(x, 0.6 + y, 0.4 + z); };
+  add_square(result, at(-0.1, -0.1, 0), at(0.1, -0.1, 0), at(0.1, 0.1, 0), at(-0.1, 0.1, 0));
+  add_square(result, at(0, -0.05, -0.1), at(0, 0.05, -0.1), at(0, 0.05, 0.1), at(0, -0.05, 0.1));
+  EXPECT_EQ(crossing.faces_of(result).size(), 2u);
+}
+
 /// Squares through the plane z = 0, so many along x and along y, which pass through each other.
 PolyMesh with_uprights(int along_x, int along_y) {
   PolyMesh result;
