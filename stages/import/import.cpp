@@ -26,6 +26,7 @@
 #include "stages/import/sheets.h"
 #include "stages/import/soup.h"
 #include "stages/import/triangulate.h"
+#include "stages/import/turn_outwards.h"
 #include "stages/import/voxel_steps.h"
 #include "stages/import/weld.h"
 
@@ -279,9 +280,7 @@ void report_orientation(const TriMesh& mesh, const Census& counts, Report& repor
                                ? "the surface is inside out: its faces look"
                                : fmt::format("{} of {} components are inside out: their faces look",
                                              closed.inside_out, counts.components);
-  report.warn(what +
-              " inwards, and those of the result will; turn them over before if they should "
-              "look outwards");
+  report.warn(what + " inwards, and those of the result will; --outwards turns them over");
 }
 
 FeatureRules feature_rules(const ImportOptions& options, double diagonal) {
@@ -366,6 +365,8 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
 
   observer.report("ordering", 0.5);
   result.mesh = import::assemble(triangles);
+  if (options.outwards)
+    result.report.set("repairs.turned_components", import::turn_outwards(result.mesh));
   const import::Openness repaired = import::openness(result.mesh);
   import::carry_attributes(soup, result.mesh);
   result.mesh.origin = frame.origin;

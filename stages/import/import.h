@@ -25,6 +25,7 @@ struct ImportOptions {
   /// Largest share of the area that repairs may take away. Not counted is what is there twice.
   double most_removed_percent = 10;
   bool strict = false;               ///< refuse what would have to be repaired
+  bool outwards = false;             ///< turn closed components that are inside out over
   std::int64_t denoise = 0;          ///< rounds in which noise is taken off
   Length longest_edge = percent(5);  ///< longer ones are divided, after all repairs
 

@@ -39,19 +39,21 @@ class Judge {
 
   ClosedComponents run() {
     measure();
-    place_points();
-    for (std::size_t f = 0; f < faces_.size(); ++f) {
-      if (!points_.empty() && is_closed_[component_[f]] != 0) cross(f);
-    }
-    std::vector<std::uint8_t> is_cavity(solids_.size(), 1);
-    for (const Point& point : points_) {
-      if (point.winding < 1) is_cavity[point.component] = 0;
-    }
+    const auto looks_inwards = [&](std::size_t c) { return solids_[c].looks_inwards(); };
+    const auto is_closed = [&](std::size_t c) { return is_closed_[c] != 0; };
+    const std::vector<std::uint8_t> is_cavity =
+        those_inside(looks_inwards, is_closed, [](int winding) { return winding >= 1; });
+    const auto is_inside_out = [&](std::size_t c) { return looks_inwards(c) && is_cavity[c] == 0; };
+    const std::vector<std::uint8_t> is_inside =
+        those_inside([&](std::size_t c) { return is_closed(c) && !is_inside_out(c); },
+                     is_inside_out, [](int winding) { return winding < 0; });
     ClosedComponents result;
+    result.is_to_turn.resize(solids_.size());
     for (std::size_t c = 0; c < solids_.size(); ++c) {
-      if (is_closed_[c] == 0) continue;
-      ++result.count;
-      if (solids_[c].looks_inwards()) ++(is_cavity[c] != 0 ? result.cavities : result.inside_out);
+      result.count += is_closed_[c] != 0 ? 1 : 0;
+      result.cavities += is_cavity[c];
+      result.inside_out += is_inside_out(c) ? 1 : 0;
+      result.is_to_turn[c] = is_inside_out(c) ? 1 : is_inside[c];
     }
     return result;
   }
@@ -73,11 +75,30 @@ class Judge {
     }
   }
 
-  /// On faces of what looks inwards, and off their corners and edges, which may lie above others'.
-  void place_points() {
+  /// \return [components] whether it is one of these, and is wound around as asked at each of its
+  /// points by those that may be `around`
+  template <class Asked, class Around, class IsWound>
+  std::vector<std::uint8_t> those_inside(const Asked& is_asked, const Around& may_be_around,
+                                         const IsWound& is_wound) {
+    place_points(is_asked);
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+      if (!points_.empty() && may_be_around(component_[f])) cross(f);
+    }
+    std::vector<std::uint8_t> result(solids_.size(), 0);
+    for (const Point& point : points_) result[point.component] = 1;
+    for (const Point& point : points_) {
+      if (!is_wound(point.winding)) result[point.component] = 0;
+    }
+    return result;
+  }
+
+  /// On faces, and off their corners and edges, which may lie above others'.
+  template <class Asked>
+  void place_points(const Asked& is_asked) {
+    points_.clear();
     for (std::size_t c = 0; c < solids_.size(); ++c) {
       const Solid& solid = solids_[c];
-      if (!solid.looks_inwards()) continue;
+      if (!is_asked(c)) continue;
       const std::size_t count = std::min(kPoints, solid.faces.size());
       for (std::size_t i = 0; i < count; ++i) {
         const auto& [p, q, r] = faces_[solid.faces[i * solid.faces.size() / count]];

@@ -16,6 +16,9 @@ struct ClosedComponents {
   Index inside_out = 0;
   /// Of negative volume, inside others that enclose more often outwards than inwards.
   Index cavities = 0;
+  /// [components] What turned over makes all look outwards: what is inside out, and what lies
+  /// inside of that, so that its cavities stay such.
+  std::vector<std::uint8_t> is_to_turn;
 };
 
 /// Judges each closed component by its signed volume; one without volume to speak of is not

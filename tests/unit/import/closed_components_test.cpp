@@ -66,6 +66,50 @@ TEST(ClosedComponents, CavitiesLieInsideWhatLooksOutwards) {
   expect_judged(all_of({box(kOrigin, 1), box(Vec3(0.1, 0.2, -5), -3)}), 1, 0);
 }
 
+TEST(ClosedComponents, AreTurnedOutwardsWithTheirCavities) {
+  const auto expect_turned = [](const PolyMesh& mesh, const PolyMesh& wanted) {
+    ImportOptions options;
+    options.outwards = true;
+    const ImportResult result = shapes::imported(mesh, options);
+    EXPECT_NEAR(shapes::volume(result.mesh), shapes::volume(shapes::imported(wanted).mesh), 1e-9);
+    EXPECT_EQ(judge_closed_components(result.mesh).inside_out, 0);
+    validate(result.mesh);
+    for (const std::string& warning : result.report.warnings()) {
+      EXPECT_EQ(warning.find("inside out"), std::string::npos) << warning;
+    }
+  };
+  expect_turned(box(kOrigin, 1), box(kOrigin, 1));
+  expect_turned(box(kOrigin, -1), box(kOrigin, 1));
+  expect_turned(all_of({box(kOrigin, 3), box(kAside, -1)}),
+                all_of({box(kOrigin, 3), box(kAside, 1)}));
+  const PolyMesh hollow = all_of({box(kOrigin, 4), box(kOrigin, -3), box(kOrigin, 1)});
+  expect_turned(hollow, hollow);
+  expect_turned(shapes::turned(hollow, [](Index) { return true; }), hollow);
+  expect_turned(all_of({box(kOrigin, 4), box(kOrigin, -3), box(kOrigin, -1)}), hollow);
+  expect_turned(all_of({box(kOrigin, -3), box(kOrigin, -1)}),
+                all_of({box(kOrigin, 3), box(kOrigin, 1)}));
+  // What lies beside, or inside in part, stays.
+  expect_turned(all_of({box(kOrigin, -3), box(Vec3(3, 0.1, 0.2), 1)}),
+                all_of({box(kOrigin, 3), box(Vec3(3, 0.1, 0.2), 1)}));
+}
+
+TEST(ClosedComponents, KeepTheirTextureWhereTheyAreTurned) {
+  PolyMesh turned = box(kOrigin, -1);
+  for (const Index v : turned.corners) {
+    const Vec3& p = turned.positions[v];
+    turned.attributes.texture.push_back({p.x() + 2 * p.z(), p.y()});
+  }
+  ImportOptions options;
+  options.outwards = true;
+  const TriMesh mesh = shapes::imported(turned, options).mesh;
+  ASSERT_GT(shapes::volume(mesh), 0);
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    const Vec3& p = mesh.positions[mesh.from(h)];
+    EXPECT_NEAR(mesh.attributes.texture[h][0], p.x() + 2 * p.z(), 1e-12);
+    EXPECT_NEAR(mesh.attributes.texture[h][1], p.y(), 1e-12);
+  }
+}
+
 TEST(ClosedComponents, OpenAndFlatOnesAreNotJudged) {
   const PolyMesh sheet = shapes::grid(2, 2, [](double, double) { return 0.0; });
   const PolyMesh turned = shapes::turned(sheet, [](Index) { return true; });
