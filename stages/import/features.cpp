@@ -12,6 +12,7 @@
 #include "common/geometry/angles.h"
 #include "common/geometry/topology/vertex_ring.h"
 #include "stages/import/attribute_borders.h"
+#include "stages/import/corner_facets.h"
 #include "stages/import/face_normals.h"
 #include "stages/import/facets.h"
 #include "stages/import/feature_graph.h"
@@ -35,12 +36,15 @@ std::vector<float> bend_angles(const TriMesh& mesh, const std::vector<Vec3>& nor
 }
 
 /// What the median bend around an edge exceeds that of a smooth, finely meshed surface by. The
-/// edges at its four vertices count that are bent by at most `angle`, but for the spokes of an even
-/// fan: those around the tip of a cone are many, and no noise.
+/// edges at its four vertices count that are bent by at most `angle`, but for those of which it is
+/// known that they are no noise, and the spokes of an even fan: those around the tip of a cone are
+/// many.
 class Roughness {
  public:
-  Roughness(const TriMesh& mesh, const std::vector<float>& bend, double angle)
-      : mesh_(mesh), bend_(bend), angle_(angle) {}
+  /// \param is_known  [3F] edges that are no noise
+  Roughness(const TriMesh& mesh, const std::vector<float>& bend,
+            const std::vector<std::uint8_t>& is_known, double angle)
+      : mesh_(mesh), bend_(bend), is_known_(is_known), angle_(angle) {}
 
   double operator()(Index h) {
     bends_.clear();
@@ -83,7 +87,8 @@ class Roughness {
     const bool is_fan = spokes >= kFewestSpokes;
     std::size_t i = 0;
     for_each_outgoing(mesh_, v, [&](Index e) {
-      const bool counts = mesh_.twin[e] != kNone && bend_[e] <= angle_ && !(is_fan && is_spoke(i));
+      const bool counts = mesh_.twin[e] != kNone && bend_[e] <= angle_ && is_known_[e] == 0 &&
+                          !(is_fan && is_spoke(i));
       if (counts) bends_.push_back(bend_[e]);
       ++i;
     });
@@ -91,6 +96,7 @@ class Roughness {
 
   const TriMesh& mesh_;
   const std::vector<float>& bend_;
+  const std::vector<std::uint8_t>& is_known_;
   double angle_;
   std::vector<float> bends_;
   std::vector<float> around_;  ///< bends at one vertex
@@ -190,6 +196,20 @@ Index add_links(TriMesh& mesh, const std::vector<Vec3>& normals, std::vector<Ind
   return add_lines(mesh, edges, [&] { return drop_loose(mesh, degree); });
 }
 
+/// Flags the edges around facets all of whose corners lie on creases. \return their number
+Index add_around(TriMesh& mesh, const std::vector<std::vector<Index>>& facets) {
+  const std::vector<Index> degree = barrier_degrees(mesh);
+  Index added = 0;
+  for (const std::vector<Index>& around : facets) {
+    if (!std::ranges::all_of(around, [&](Index h) { return degree[mesh.from(h)] > 1; })) continue;
+    for (const Index h : around) {
+      added += 1 - mesh.is_feature[h];
+      set_feature(mesh, h, true);
+    }
+  }
+  return added;
+}
+
 void find_creases(TriMesh& mesh, double angle_deg, FeatureCounts& counts) {
   constexpr double kShallow = 0.5;
   constexpr double kWeak = 0.6;
@@ -198,7 +218,13 @@ void find_creases(TriMesh& mesh, double angle_deg, FeatureCounts& counts) {
   const double angle = angle_deg * kDegree;
   const std::vector<Vec3> normals = robust_face_normals(mesh);
   const std::vector<float> bend = bend_angles(mesh, normals);
-  Roughness roughness(mesh, bend, angle);
+  const std::vector<std::vector<Index>> corners =
+      find_corner_facets(mesh, bend, kShallow * angle, angle);
+  std::vector<std::uint8_t> is_around_corner(bend.size(), 0);
+  for (const std::vector<Index>& around : corners) {
+    for (const Index h : around) is_around_corner[h] = is_around_corner[mesh.twin[h]] = 1;
+  }
+  Roughness roughness(mesh, bend, is_around_corner, angle);
   std::vector<float> excess(bend.size(), 0);  // bend beyond the roughness, where it matters
   std::vector<float> rough_at(bend.size(), 0);
   std::vector<Index> shallow;  // bent less than creases, on smooth ground
@@ -219,6 +245,7 @@ void find_creases(TriMesh& mesh, double angle_deg, FeatureCounts& counts) {
   counts.bridging_edges = Bridges(mesh, excess, kWeak * angle).run();
   counts.dropped_edges = drop_noise(mesh, rough_at);
   counts.shallow_edges += add_links(mesh, normals, shallow);  // noise holds none
+  counts.shallow_edges += add_around(mesh, corners);
 }
 
 /// How far an edge stands out over the straight way across its two faces.

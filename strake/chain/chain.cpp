@@ -95,7 +95,8 @@ OptionList Chain::declare(std::optional<std::int64_t>& rounds, bool& lines_only,
            .target = &lines_only,
            .unit = "",
            .help = "Keep the result of lines also where they are too coarse for the shape at the "
-                   "wanted count, and decimating it does much better."},
+                   "wanted count, or their faces cross within a tolerance, and decimating it does "
+                   "much better."},
           {.name = "working-ratio",
            .target = &working_ratio,
            .unit = "",
@@ -146,7 +147,7 @@ std::string Chain::reach_goal(Session& session) const {
   }
   const std::string tolerance = trace.option("tolerance").value();
   if (tolerance.empty()) return follow_spacing(session, goal_stages, feedback_rounds);
-  return meet_tolerance(session, goal_stages, tolerance, feedback_rounds);
+  return meet_tolerance(session, goal_stages, tolerance, feedback_rounds, lines_only);
 }
 
 void Chain::keep_ridges() const {

@@ -386,6 +386,11 @@ bool may_be_parted(const Attempt& attempt) {
   return !crossing.input_crosses();
 }
 
+/// Decimation knows nothing of what a user says of directions and of lines.
+bool needs_lines(const Session& session, const GoalStages& stages, bool lines_only) {
+  return lines_only || only_quads(stages) || session.has("density") || session.has("guides");
+}
+
 }  // namespace
 
 std::string meet_count(Session& session, const GoalStages& stages, Counted counted,
@@ -394,18 +399,16 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
   std::optional<Session> coarser = on_coarser_mesh(session, stages, wanted, working_ratio);
   if (!coarser) estimate_field(session, stages);
   const LineAim aim = aim_of(session, stages, counted, wanted);
-  // What a user says of directions and of lines decimation knows nothing of.
-  const bool needs_lines =
-      lines_only || only_quads(stages) || session.has("density") || session.has("guides");
+  const bool may_be_decimated = !needs_lines(session, stages, lines_only);
   trace_to_count(coarser ? *coarser : session, stages, aim, feedback_rounds,
-                 !needs_lines && !coarser);
+                 may_be_decimated && !coarser);
   if (coarser) {
     if (coarser->has("uncrossed")) coarser->keep(stages.uncross);
     take_from_coarser_mesh(session, std::move(*coarser), stages);
   }
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
   if (coarser) replace_crossing(session, stages, aim, crossing);
-  if (!needs_lines && decimate_if_too_coarse(session, stages, counted, wanted, crossing)) {
+  if (may_be_decimated && decimate_if_too_coarse(session, stages, counted, wanted, crossing)) {
     replace_crossing(session, stages, aim, crossing);
   }
   if (session.has("uncrossed")) session.keep(stages.uncross);
@@ -441,7 +444,7 @@ std::string follow_spacing(Session& session, const GoalStages& stages,
 }
 
 std::string meet_tolerance(Session& session, const GoalStages& stages, const std::string& tolerance,
-                           std::optional<std::int64_t> feedback_rounds) {
+                           std::optional<std::int64_t> feedback_rounds, bool lines_only) {
   stages.refine.option("refine-tolerance").parse_into(tolerance);
   if (const Option& border = stages.mesh.option("border-distance"); border.value().empty()) {
     Length most = Length::parse(tolerance);
@@ -471,7 +474,13 @@ std::string meet_tolerance(Session& session, const GoalStages& stages, const std
     attempt.done.keep(stages.refine);
   };
   const Index faces = first.done.get<QuadMesh>("refined").mesh.face_count();
-  session = part_faces(first, faces, kPatienceWithinTolerance, again, never_give_up, keep).done;
+  const Attempt best =
+      part_faces(first, faces, kPatienceWithinTolerance, again, never_give_up, keep);
+  session = best.done;
+  const bool may_be_decimated = !needs_lines(session, stages, lines_only);
+  if (may_be_decimated && decimate_if_spent(session, stages, crossing, best.places.size())) {
+    return "refined";
+  }
   warn_of_excess(session);
   return "refined";
 }

@@ -39,11 +39,12 @@ std::string follow_spacing(Session& session, const GoalStages& stages,
 
 /// Traces, by default once more with closer lines where errors are too large, and divides cells
 /// until the result is within a tolerance of the surface, both ways; where that is not reached, or
-/// faces of the result cross, again with closer lines.
+/// faces of the result cross, again with closer lines. Where many still do decimation may take the
+/// place of lines (too_coarse.h), but not with `lines_only`.
 /// \param tolerance  as `Length::to_string` gives it
 /// \return the port of the result
 /// \throw ToleranceError naming places where that is not reached
 std::string meet_tolerance(Session& session, const GoalStages& stages, const std::string& tolerance,
-                           std::optional<std::int64_t> feedback_rounds);
+                           std::optional<std::int64_t> feedback_rounds, bool lines_only);
 
 }  // namespace strake

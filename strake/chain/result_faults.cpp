@@ -19,6 +19,10 @@ CellSampling sampling_of(const PolyMesh& result, double samples) {
 
 }  // namespace
 
+double odd_share(const PolyMesh& mesh) {
+  return 1 - static_cast<double>(analyse(mesh).quads) / mesh.face_count();
+}
+
 ResultFaults faults_of(const Session& session, Counted counted, std::int64_t wanted,
                        CrossingPlaces& crossing, double samples) {
   const auto& mesh = session.get<TriMesh>("mesh");
@@ -34,7 +38,7 @@ ResultFaults faults_of(const Session& session, Counted counted, std::int64_t wan
           .largest = map.largest / cell,
           .crossing = static_cast<double>(crossing.of(result.mesh).size()) / faces,
           .missing = std::abs(share - 1),
-          .odd = 1 - static_cast<double>(analyse(result.mesh).quads) / faces};
+          .odd = odd_share(result.mesh)};
 }
 
 }  // namespace strake

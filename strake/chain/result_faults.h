@@ -18,6 +18,9 @@ struct ResultFaults {
   double odd = 0;       ///< share of the faces that are no quads
 };
 
+/// Share of the faces that are no quads.
+double odd_share(const PolyMesh& mesh);
+
 /// Samples of a result and of the surface, about; large cells hide much between few.
 inline constexpr double kFaultSamples = 200000;
 

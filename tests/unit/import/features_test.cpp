@@ -147,6 +147,47 @@ TEST(Features, BothEdgesOfAChamferAreKept) {
   EXPECT_EQ(feature_edges(imported(strips({1, 0.05, 1}, {30, 60}, 20)).mesh), 2 * 20);
 }
 
+/// A block of 4 x 3 x 2 all of whose edges are chamfered by 45 degrees.
+PolyMesh chamfered_block(double chamfer) {
+  const Vec3 half(2, 1.5, 1);
+  const auto sign = [](int corner, int axis) { return ((corner >> axis) & 1) != 0 ? 1 : -1; };
+  std::vector<Vec3> positions;
+  for (int corner = 0; corner < 8; ++corner) {
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3& p = positions.emplace_back(half - Vec3::Constant(chamfer));
+      p[axis] = half[axis];
+      for (int i = 0; i < 3; ++i) p[i] *= sign(corner, i);
+    }
+  }
+  std::vector<std::vector<Index>> faces;
+  for (int a = 0; a < 3; ++a) {
+    const int b = 1 << ((a + 1) % 3);
+    const int c = 1 << ((a + 2) % 3);
+    for (const int low : {0, 1 << a}) {  // the side across this axis
+      faces.push_back({3 * low + a, 3 * (low + b) + a, 3 * (low + b + c) + a, 3 * (low + c) + a});
+    }
+    for (const int low : {0, b, c, b + c}) {  // the chamfers along it
+      const int high = low + (1 << a);
+      const int one = (a + 1) % 3;
+      const int other = (a + 2) % 3;
+      faces.push_back({3 * low + one, 3 * high + one, 3 * high + other, 3 * low + other});
+    }
+  }
+  for (int corner = 0; corner < 8; ++corner) {
+    faces.push_back({3 * corner, 3 * corner + 1, 3 * corner + 2});
+  }
+  return shapes::polygons(positions, faces);
+}
+
+/// Edges of the corners are bent by 35 degrees, and are most of what is bent there.
+TEST(Features, WhereChamfersMeetThereIsNoNoise) {
+  for (const double chamfer : {0.02, 0.1, 0.5}) {
+    const TriMesh mesh = imported(chamfered_block(chamfer)).mesh;
+    EXPECT_EQ(feature_edges(mesh), 48) << chamfer;
+    EXPECT_EQ(corners(mesh), 24);
+  }
+}
+
 /// A lens: its caps are bent towards each other all over, but hardly beside its edge.
 TEST(Features, EdgesBetweenCurvedFacesAreKept) {
   const PolyMesh lens = shapes::grid(40, 20, [](double x, double) {
@@ -205,6 +246,24 @@ TEST(Features, SmallBumpsHaveNoEdges) {
        {6, 7, 8},
        {7, 4, 8}});
   EXPECT_EQ(feature_edges(imported(mesh).mesh), 0);
+}
+
+/// The same with its tip cut off: a flat whose edges are all bent, but none that ends on a crease.
+TEST(Features, SmallFrustumsHaveNoEdges) {
+  std::vector<Vec3> positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)};
+  for (const Vec3& ring : {Vec3(0.004, 0.004, 0), Vec3(0.002, 0.002, 0.001)}) {
+    for (const Vec2& side : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)}) {
+      positions.emplace_back(0.5 + ring.x() * side.x(), 0.5 + ring.y() * side.y(), ring.z());
+    }
+  }
+  std::vector<std::vector<Index>> faces = {{8, 9, 10, 11}};
+  for (Index ring = 0; ring < 8; ring += 4) {
+    for (Index i = 0; i < 4; ++i) {
+      const Index next = (i + 1) % 4;
+      faces.push_back({ring + i, ring + next, ring + 4 + next, ring + 4 + i});
+    }
+  }
+  EXPECT_EQ(feature_edges(imported(shapes::polygons(positions, faces)).mesh), 0);
 }
 
 ImportOptions with_facets(double height) {
