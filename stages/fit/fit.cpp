@@ -232,9 +232,25 @@ class Fit {
     return moves;
   }
 
+  /// Takes the part off a move towards a neighbour that is too long for one round, so that a vertex
+  /// that is near another one does not stay behind otherwise.
+  void shorten_towards_neighbours(std::vector<Vec3>& moves) const {
+    const std::vector<Vec3>& p = places_.positions();
+    for (const auto& [a, b, c] : triangles_) {
+      for (const auto& [v, w] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}}) {
+        const Vec3 way = p[w] - p[v];
+        const double square = way.squaredNorm();
+        if (!(square > 0)) continue;
+        moves[v] -= std::max(moves[v].dot(way) / square - kLongestMove, 0.0) * way;
+        moves[w] -= std::min(moves[w].dot(way) / square + kLongestMove, 0.0) * way;
+      }
+    }
+  }
+
   /// Shortens moves that are too long for one round, and leaves out those that are not worth it.
   void limit(std::vector<Vec3>& moves) const {
     const std::vector<Vec3>& p = places_.positions();
+    shorten_towards_neighbours(moves);
     std::vector<double> shortest(p.size(), std::numeric_limits<double>::infinity());
     std::vector<double> nearing(p.size(), 0.0);  // share of the way to a neighbour
     for (const auto& [a, b, c] : triangles_) {

@@ -22,6 +22,8 @@ constexpr double kNearer = 0.5;
 /// fewer.
 constexpr double kMoreOdd = 0.05;
 constexpr double kFewerOdd = 0.03;
+/// Share of all faces that may be thin besides: between edges of facets there is little room.
+constexpr double kMoreThin = 0.03;
 /// Share of a count that may be missed.
 constexpr double kMissed = 0.05;
 
@@ -31,7 +33,8 @@ bool is_poor(const ResultFaults& faults) {
 }
 
 bool is_better(const ResultFaults& other, const ResultFaults& faults) {
-  if (other.crossing > faults.crossing || other.missing > std::max(faults.missing, kMissed)) {
+  if (other.crossing > faults.crossing || other.missing > std::max(faults.missing, kMissed) ||
+      other.thin > faults.thin + kMoreThin) {
     return false;
   }
   const bool is_nearer =

@@ -478,7 +478,7 @@ std::string meet_tolerance(Session& session, const GoalStages& stages, const std
       part_faces(first, faces, kPatienceWithinTolerance, again, never_give_up, keep);
   session = best.done;
   const bool may_be_decimated = !needs_lines(session, stages, lines_only);
-  if (may_be_decimated && decimate_if_spent(session, stages, crossing, best.places.size())) {
+  if (may_be_decimated && decimate_if_tangled(session, stages, crossing, best.places.size())) {
     return "refined";
   }
   warn_of_excess(session);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
+#include "common/geometry/angles.h"
 #include "common/geometry/cell_error/cell_error.h"
 #include "common/geometry/face_crossings/crossing_places.h"
 #include "common/geometry/mesh_measures.h"
@@ -17,11 +19,25 @@ CellSampling sampling_of(const PolyMesh& result, double samples) {
           .input_step = 1 / std::clamp(root, 3.0, 20.0)};
 }
 
-}  // namespace
-
-double odd_share(const PolyMesh& mesh) {
-  return 1 - static_cast<double>(analyse(mesh).quads) / mesh.face_count();
+bool is_thin(const PolyMesh& mesh, Index f) {
+  constexpr double kThin = 10 * kDegree;
+  const std::span<const Index> face = mesh.face(f);
+  const std::size_t n = face.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3& p = mesh.positions[face[i]];
+    const Vec3 before = mesh.positions[face[(i + n - 1) % n]] - p;
+    if (angle_between(before, mesh.positions[face[(i + 1) % n]] - p) < kThin) return true;
+  }
+  return false;
 }
+
+double thin_share(const PolyMesh& mesh) {
+  Index thin = 0;
+  for (Index f = 0; f < mesh.face_count(); ++f) thin += is_thin(mesh, f) ? 1 : 0;
+  return double(thin) / mesh.face_count();
+}
+
+}  // namespace
 
 ResultFaults faults_of(const Session& session, Counted counted, std::int64_t wanted,
                        CrossingPlaces& crossing, double samples) {
@@ -38,7 +54,8 @@ ResultFaults faults_of(const Session& session, Counted counted, std::int64_t wan
           .largest = map.largest / cell,
           .crossing = static_cast<double>(crossing.of(result.mesh).size()) / faces,
           .missing = std::abs(share - 1),
-          .odd = odd_share(result.mesh)};
+          .odd = 1 - static_cast<double>(analyse(result.mesh).quads) / faces,
+          .thin = thin_share(result.mesh)};
 }
 
 }  // namespace strake

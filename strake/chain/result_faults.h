@@ -16,10 +16,8 @@ struct ResultFaults {
   double crossing = 0;  ///< share of the faces
   double missing = 0;   ///< share of the count, too few or too many
   double odd = 0;       ///< share of the faces that are no quads
+  double thin = 0;      ///< share of the faces with an angle below 10 degrees
 };
-
-/// Share of the faces that are no quads.
-double odd_share(const PolyMesh& mesh);
 
 /// Samples of a result and of the surface, about; large cells hide much between few.
 inline constexpr double kFaultSamples = 200000;

@@ -30,11 +30,6 @@ constexpr double kMayCrossForShape = 0.1;
 /// than there, and in all. Even few that cross are of no use to many programs.
 constexpr double kMoreOdd = 0.1;
 constexpr double kFewOdd = 0.15;
-/// Share of odd faces within a tolerance from which on cells along lines are hardly in order where
-/// they have more vertices than the surface, and vertices of a result that is much smaller, as a
-/// share of theirs.
-constexpr double kManyOdd = 0.2;
-constexpr double kMuchSmaller = 0.5;
 /// The same where a part of the shape is lost otherwise: one place is not worth all quads.
 constexpr double kMoreOddForPart = 0.25;
 /// Share of a wanted count that a result may be off by.
@@ -190,18 +185,16 @@ bool decimate_if_too_coarse(Session& session, const GoalStages& stages, Counted 
   return true;
 }
 
-bool decimate_if_spent(Session& session, const GoalStages& stages, CrossingPlaces& crossing,
-                       std::size_t crossing_faces) {
+bool decimate_if_tangled(Session& session, const GoalStages& stages, CrossingPlaces& crossing,
+                         std::size_t crossing_faces) {
   const PolyMesh& lines = session.get<QuadMesh>("refined").mesh;
-  const Index given = session.get<TriMesh>("mesh").vertex_count();
-  const double odd = odd_share(lines);
-  const bool is_tangled = double(crossing_faces) > kManyCross * lines.face_count();
-  if (!is_tangled && (odd <= kManyOdd || lines.vertex_count() <= given)) return false;
-  session.say("cells along lines are hardly in order within this tolerance; decimating to compare");
+  const auto before = static_cast<double>(crossing_faces);
+  if (before <= kManyCross * lines.face_count()) return false;
+  session.say(fmt::format("{} faces cross; decimating to compare", crossing_faces));
   Session other = session;
   try {
-    stages.decimate.option("decimate-vertices")
-        .parse_into(std::to_string(std::min(lines.vertex_count(), given)));
+    const Index most = std::min(lines.vertex_count(), session.get<TriMesh>("mesh").vertex_count());
+    stages.decimate.option("decimate-vertices").parse_into(std::to_string(most));
     other.run(stages.decimate);
     other.provide_as("quads", other.get<QuadMesh>("decimated"), "decimated");
     // Vertices that follow noise are best where they are.
@@ -214,18 +207,14 @@ bool decimate_if_spent(Session& session, const GoalStages& stages, CrossingPlace
   }
   const PolyMesh& decimated = other.get<QuadMesh>("refined").mesh;
   const auto left = static_cast<double>(crossing.of(decimated).size());
-  const auto before = static_cast<double>(crossing_faces);
-  const double size = double(decimated.vertex_count()) / lines.vertex_count();
-  const bool crosses_less = is_tangled && left < kFewer * before && size <= 1;
-  const bool is_smaller =
-      size < kMuchSmaller && left <= before && odd_share(decimated) <= odd + kMoreOdd;
-  if (!crosses_less && !is_smaller) return false;
+  if (left >= kFewer * before || decimated.vertex_count() > lines.vertex_count()) return false;
   session = other;
   for (const Stage* stage : {&stages.decimate, &stages.fit, &stages.refine}) session.keep(*stage);
   session.say(
-      "warning: this tolerance is too small for lines, as where noise is higher: the result was "
-      "decimated instead, and has more triangles; a larger --tolerance, or --denoise, makes quads, "
-      "--lines-only keeps lines");
+      "warning: within this tolerance faces along lines cross, as where noise is higher: the "
+      "result "
+      "was decimated instead, and has more triangles; a larger --tolerance, or --denoise, makes "
+      "quads, --lines-only keeps lines");
   return true;
 }
 

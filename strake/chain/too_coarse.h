@@ -22,18 +22,13 @@ namespace strake {
 bool decimate_if_too_coarse(Session& session, const GoalStages& stages, Counted counted,
                             std::int64_t wanted, CrossingPlaces& crossing);
 
-/// Where a tolerance is below the noise of a surface, so that cells along lines come to cross or
-/// have more vertices than the surface and are no quads, looks whether the surface decimated to no
-/// more vertices, all its own if need be, does better.
-///
-/// Better is far fewer faces that cross, or half of the vertices with about as many quads and no
-/// more that cross. That is "refined" then, and the user is told.
-/// \pre "refined" is within the tolerance that refining has
-/// \param crossing        of "mesh"
-/// \param crossing_faces  of "refined", those of "mesh" not counted
-/// \return whether it was decimated
-bool decimate_if_spent(Session& session, const GoalStages& stages, CrossingPlaces& crossing,
-                       std::size_t crossing_faces);
+/// Where a tolerance is below the noise of a surface, so that many faces of the result cross that
+/// do not in the surface, looks whether the surface decimated to no more vertices, all its own if
+/// need be, is within it with far fewer of them. That is "refined" then, and the user is told. \pre
+/// "refined" is within the tolerance that refining has \param crossing        of "mesh" \param
+/// crossing_faces  of "refined", those of "mesh" not counted \return whether it was decimated
+bool decimate_if_tangled(Session& session, const GoalStages& stages, CrossingPlaces& crossing,
+                         std::size_t crossing_faces);
 
 /// Whether it would be decimated as it is: faces cross or it is farther off, and decimation is much
 /// better.

@@ -122,6 +122,13 @@ QuadMesh triangles() {
   return quads_of(mesh);
 }
 
+/// The roof with a vertex of its ridge near the other one.
+QuadMesh thin() {
+  PolyMesh mesh = roof();
+  mesh.positions[5].y() = 0.05;
+  return quads_of(mesh);
+}
+
 TEST(FacetTrial, WhatIsNearerIsTaken) {
   Trial trial(off(), exact());
   EXPECT_EQ(trial.run().mesh.positions, exact().mesh.positions);
@@ -129,8 +136,8 @@ TEST(FacetTrial, WhatIsNearerIsTaken) {
   EXPECT_FALSE(trial.was_said("warning: of none"));
 }
 
-TEST(FacetTrial, WhatIsFarOffOrHasFewQuadsIsNotTaken) {
-  for (const QuadMesh& worse : {off(), triangles()}) {
+TEST(FacetTrial, WhatIsFarOffOrThinOrHasFewQuadsIsNotTaken) {
+  for (const QuadMesh& worse : {off(), thin(), triangles()}) {
     Trial trial(off(), worse);
     EXPECT_EQ(trial.run().mesh.corners, off().mesh.corners);
     EXPECT_TRUE(trial.was_said("warning: of none"));
