@@ -32,6 +32,7 @@ struct Arguments {
   std::string view_address;
   std::string section;
   std::string layers = "edges";
+  std::string colour;  ///< "": that of the surface
   RunView shown;
   double line_width = 2.5;
   bool flat = false;
@@ -84,10 +85,10 @@ void add_run_arguments(CLI::App& app, Arguments& arguments) {
   CLI::App* group = app.add_option_group("Of a run");
   group->add_option("--surface", arguments.shown.surface, "input or result")->capture_default_str();
   group
-      ->add_option("--colour", arguments.shown.colour,
+      ->add_option("--colour", arguments.colour,
                    "of the input: plain, k_min, k_max, confidence, colours; of the result: sides, "
                    "distance, alignment, colours, labels, plain")
-      ->capture_default_str();
+      ->default_str("the first of them");
   group
       ->add_option(
           "--layers", arguments.layers,
@@ -116,8 +117,9 @@ void interpret(Arguments& arguments) {
   if (!arguments.view_address.empty()) {
     arguments.shown = read_view(arguments.view_address);
   } else {
-    std::string address = "#a=0," + arguments.shown.surface + "," + arguments.shown.colour + "," +
-                          arguments.shown.colour + "," +
+    const std::string first = arguments.shown.surface == "input" ? "plain" : "sides";
+    const std::string colour = arguments.colour.empty() ? first : arguments.colour;
+    std::string address = "#a=0," + arguments.shown.surface + "," + colour + "," + colour + "," +
                           (arguments.layers == "none" ? "" : arguments.layers);
     if (!arguments.section.empty()) address += "&section=" + arguments.section;
     arguments.shown = read_view(address);
