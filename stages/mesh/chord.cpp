@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "common/geometry/angles.h"
 #include "stages/mesh/cell_change.h"
 #include "stages/mesh/cell_shape.h"
 #include "stages/mesh/simplify.h"
@@ -17,8 +16,6 @@ namespace {
 constexpr double kSplitPrice = 0.3;
 /// Price of taking an edge of the wanted length away; falls with the square of its length.
 constexpr double kCollapsePrice = 0.6;
-/// Turn of the surface across a strip that costs as much as a rung of the wanted length.
-constexpr double kSharpTurn = 45 * kDegree;
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 Vec3 middle(const PolygonGraph& graph, Index dart) { return graph.split_position(dart, 0.5); }
@@ -26,17 +23,6 @@ Vec3 middle(const PolygonGraph& graph, Index dart) { return graph.split_position
 double edge_ratio(const PolygonGraph& graph, Index dart, const EdgeLength& wanted) {
   const DartGraph& g = graph.graph();
   return (graph.position(g.from(dart)) - graph.position(g.to(dart))).norm() / wanted(dart);
-}
-
-/// Angle by which the surface turns from one side of a strip to the other, as the edges tell that
-/// go on straight from both ends of a rung.
-double turn_across(const PolygonGraph& graph, Index rung) {
-  const DartGraph& g = graph.graph();
-  const auto onwards = [&](Index dart) {
-    const Index straight = g.next(DartGraph::opposite(g.next(dart)));
-    return Vec3(graph.position(g.to(straight)) - graph.position(g.from(straight)));
-  };
-  return angle_between(onwards(rung), -onwards(DartGraph::opposite(rung)));
 }
 
 /// Gain of halving a cell between the middles of two edges, or from one to the opposite corner.
@@ -192,8 +178,7 @@ double collapse_price(const PolygonGraph& graph, const Chord& chord, const EdgeL
   double price = 0;
   for (const Index rung : chord.rungs) {
     const double ratio = edge_ratio(graph, rung, wanted);
-    const double turn = turn_across(graph, rung) / kSharpTurn;
-    price += kCollapsePrice * (ratio * ratio + turn * turn);
+    price += kCollapsePrice * ratio * ratio;
   }
   return price;
 }

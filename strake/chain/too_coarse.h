@@ -24,9 +24,13 @@ bool decimate_if_too_coarse(Session& session, const GoalStages& stages, Counted 
 
 /// Where a tolerance is below the noise of a surface, so that many faces of the result cross that
 /// do not in the surface, looks whether the surface decimated to no more vertices, all its own if
-/// need be, is within it with far fewer of them. That is "refined" then, and the user is told. \pre
-/// "refined" is within the tolerance that refining has \param crossing        of "mesh" \param
-/// crossing_faces  of "refined", those of "mesh" not counted \return whether it was decimated
+/// need be, is within it with far fewer of them.
+///
+/// That is "refined" then, and the user is told.
+/// \pre "refined" is within the tolerance that refining has
+/// \param crossing        of "mesh"
+/// \param crossing_faces  of "refined", those of "mesh" not counted
+/// \return whether it was decimated
 bool decimate_if_tangled(Session& session, const GoalStages& stages, CrossingPlaces& crossing,
                          std::size_t crossing_faces);
 
