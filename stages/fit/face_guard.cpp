@@ -25,6 +25,8 @@ constexpr double kNoLength = 1e-9;
 constexpr double kShortSide = 0.05;
 /// Share of its length at first from which on a side is not short: the face is narrow.
 constexpr double kLikeAtFirst = 0.5;
+/// Times the length at which a side is short that moves leave it: faces grow meanwhile.
+constexpr double kRoom = 1.1;
 /// Lengths that differ by a smaller share are equal: rounding.
 constexpr double kSameLength = 1e-9;
 
@@ -102,6 +104,24 @@ void FaceGuard::set_start(const VertexPlaces& places) {
 
 bool FaceGuard::is_too_short(std::size_t corner, const Side& side) const {
   return side.length < side.least && side.length < (1 - kSameLength) * start_sides_[corner];
+}
+
+void FaceGuard::keep_apart(const VertexPlaces& places, std::vector<Vec3>& moves) const {
+  for (Index f = 0; f < mesh_.face_count(); ++f) {
+    const std::span<const Index> corners = mesh_.face(f);
+    for_sides(places, f, [&](std::size_t corner, const Side& side) {
+      const std::size_t i = corner - static_cast<std::size_t>(mesh_.offsets[f]);
+      const Index v = corners[i];
+      const Index w = corners[(i + 1) % corners.size()];
+      if (!(side.length > 0)) return;
+      const Vec3 way = (places.positions()[w] - places.positions()[v]) / side.length;
+      const double room = std::max(side.length - kRoom * side.least, 0.0);
+      const double excess = (moves[v] - moves[w]).dot(way) - room;
+      if (!(excess > 0)) return;
+      moves[v] -= excess / 2 * way;
+      moves[w] += excess / 2 * way;
+    });
+  }
 }
 
 bool FaceGuard::is_spoilt(const VertexPlaces& places, Index face) const {

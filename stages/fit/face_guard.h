@@ -29,6 +29,9 @@ class FaceGuard {
   [[nodiscard]] std::size_t crossing_count() const { return allowed_.size(); }
   /// Takes the shapes of the faces as they are now as the state to compare with.
   void set_start(const VertexPlaces& places);
+  /// Takes the part off the moves of two ends of a side towards each other by which it would get
+  /// too short: put back, they would not move along it either. \param moves  [V] model units
+  void keep_apart(const VertexPlaces& places, std::vector<Vec3>& moves) const;
   /// Whether a face got worse in shape.
   [[nodiscard]] bool is_spoilt(const VertexPlaces& places, Index face) const;
   /// [V] 1 at the vertices of such faces; where nothing but a side got too short, at its ends.

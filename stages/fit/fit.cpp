@@ -251,6 +251,7 @@ class Fit {
   void limit(std::vector<Vec3>& moves) const {
     const std::vector<Vec3>& p = places_.positions();
     shorten_towards_neighbours(moves);
+    guard_.keep_apart(places_, moves);
     std::vector<double> shortest(p.size(), std::numeric_limits<double>::infinity());
     std::vector<double> nearing(p.size(), 0.0);  // share of the way to a neighbour
     for (const auto& [a, b, c] : triangles_) {

@@ -143,6 +143,21 @@ PolyMesh relief(int along, const std::function<double(double x, double y)>& heig
   return mesh;
 }
 
+GoalStages goal_stages() {
+  return {.coarsen = coarsen_stage(),
+          .tensor = tensor_stage(),
+          .smooth = smooth_stage(),
+          .trace = trace_stage(),
+          .mesh = mesh_stage(),
+          .lift = lift_stage(),
+          .prolong = prolong_stage(),
+          .fit = fit_stage(),
+          .size = size_stage(),
+          .refine = refine_stage(),
+          .uncross = refine_uncross_stage(),
+          .decimate = decimate_stage()};
+}
+
 /// Whether closer lines are in vain where those of a flat grid are all there is of a surface.
 bool flat_grid_misses(const PolyMesh& surface, int along) {
   Listener listener;
@@ -154,18 +169,7 @@ bool flat_grid_misses(const PolyMesh& surface, int along) {
   grid.mesh = relief(along, [](double, double) { return 0.0; });
   grid.mesh_id = session.get<TriMesh>("mesh").id;
   session.provide("fitted", grid, "test", "");
-  const GoalStages stages{.coarsen = coarsen_stage(),
-                          .tensor = tensor_stage(),
-                          .smooth = smooth_stage(),
-                          .trace = trace_stage(),
-                          .mesh = mesh_stage(),
-                          .lift = lift_stage(),
-                          .prolong = prolong_stage(),
-                          .fit = fit_stage(),
-                          .size = size_stage(),
-                          .refine = refine_stage(),
-                          .uncross = refine_uncross_stage(),
-                          .decimate = decimate_stage()};
+  const GoalStages stages = goal_stages();
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
   return lines_miss_shape(session, stages, Counted::vertices, grid.mesh.vertex_count(), crossing);
 }
@@ -204,6 +208,41 @@ TEST(TooCoarse, MoreThanTheInputHasIsNamed) {
   EXPECT_TRUE(is_said("no more vertices than the " + std::to_string(given) + " of the input"));
   EXPECT_FALSE(is_said("too coarse"));
   EXPECT_FALSE(is_said("ask for more"));
+}
+
+// A third of the vertices lies beyond their neighbours.
+TEST(TooCoarse, TangledFacesWithinAToleranceGiveWayToTheSurface) {
+  const auto waves = [](double x, double y) { return 0.2 * std::sin(3 * x) * std::sin(2 * y); };
+  const PolyMesh surface = relief(20, waves);
+  Listener listener;
+  Session session(listener);
+  session.provide("input", Polygons{surface, "", {}}, "input", "");
+  session.run(import_stage());
+  const auto& mesh = session.get<TriMesh>("mesh");
+  QuadMesh tangled;
+  tangled.mesh = surface;
+  tangled.mesh_id = mesh.id;
+  for (Index v = 0; v < surface.vertex_count(); v += 3) {
+    Vec3& p = tangled.mesh.positions[v];
+    p.x() += 0.3;
+    p.z() = waves(p.x(), p.y());
+  }
+  session.provide("refined", tangled, "test", "");
+  const GoalStages stages = goal_stages();
+  stages.refine.option("refine-tolerance").parse_into("0.1%");
+  CrossingPlaces crossing(mesh);
+  const std::size_t faces = crossing.of(tangled.mesh).size();
+  ASSERT_GT(faces, 100);
+
+  EXPECT_FALSE(decimate_if_tangled(session, stages, crossing, 1));
+  EXPECT_EQ(session.get<QuadMesh>("refined").mesh.positions, tangled.mesh.positions);
+  EXPECT_EQ(listener.said.find("decimat"), std::string::npos);
+
+  EXPECT_TRUE(decimate_if_tangled(session, stages, crossing, faces));
+  const PolyMesh& result = session.get<QuadMesh>("refined").mesh;
+  EXPECT_TRUE(crossing.of(result).empty());
+  EXPECT_LE(result.vertex_count(), surface.vertex_count());
+  EXPECT_NE(listener.said.find("decimated instead"), std::string::npos);
 }
 
 TEST(TooCoarse, PureQuadsAndGuidesNeedLines) {

@@ -171,6 +171,27 @@ TEST(Fit, SpacesLinesEvenlyWhereItIsFlat) {
   EXPECT_LT(longest, 1.35 * shortest);  // 3.2 times before
 }
 
+// Two lines are drawn to each edge between facets. What is near stops a vertex on the way there
+// only, and not on its way along these lines.
+TEST(Fit, LinesStayStraightAcrossOthersThatAreNear) {
+  const Sheet sheet{1, 2};
+  std::vector<double> facets;
+  for (int i = 0; i <= 8; ++i) facets.push_back(i / 8.0);
+  const support::Prepared surface = support::prepare(sheet.grid({0, 0.25, 0.5, 0.75, 1}, facets));
+  const std::vector<double> rows = {0,    0.12, 0.13, 0.25, 0.37, 0.38, 0.5,
+                                    0.62, 0.63, 0.75, 0.87, 0.88, 1};
+  const QuadMesh result =
+      fitted_with_field(surface, placed_on(surface.mesh, sheet.grid({0, 0.2, 1}, rows)));
+  double least = 1;
+  double most = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    least = std::min(least, result.mesh.positions[3 * i + 1].x());
+    most = std::max(most, result.mesh.positions[3 * i + 1].x());
+  }
+  EXPECT_GT(least, 0.49);
+  EXPECT_LT(most - least, 1e-3);
+}
+
 /// The angle, degrees, at a T-joint that is a corner of a quad, after the fit: two quads at its
 /// left, a quad in the shape of a triangle at its right.
 double angle_at_joint(const Sheet& sheet) {
