@@ -30,7 +30,8 @@ class FaceGuard {
   /// Takes the shapes of the faces as they are now as the state to compare with.
   void set_start(const VertexPlaces& places);
   /// Takes the part off the moves of two ends of a side towards each other by which it would get
-  /// too short: put back, they would not move along it either. \param moves  [V] model units
+  /// too short: put back, they would not move along it either.
+  /// \param moves  [V] model units
   void keep_apart(const VertexPlaces& places, std::vector<Vec3>& moves) const;
   /// Whether a face got worse in shape.
   [[nodiscard]] bool is_spoilt(const VertexPlaces& places, Index face) const;

@@ -1,15 +1,16 @@
 #include "stages/import/corner_facets.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <utility>
 
 #include "common/core/disjoint_sets.h"
-#include "common/geometry/angles.h"
+#include "stages/import/facets.h"
 
 namespace strake::import {
 namespace {
 
-constexpr double kFlatBend = 1 * kDegree;  ///< largest bend within a facet
-constexpr Index kFewestCreases = 2;        ///< at each corner of a facet
+constexpr Index kFewestCreases = 2;  ///< at each corner of a facet
 
 /// Number of edges that are bent by more than an angle at each vertex. [V]
 std::vector<Index> bent_degrees(const TriMesh& mesh, const std::vector<float>& bend, double angle) {
@@ -28,25 +29,36 @@ std::vector<std::vector<Index>> find_corner_facets(const TriMesh& mesh,
                                                    const std::vector<float>& bend, double shallow,
                                                    double angle) {
   const std::vector<Index> degree = bent_degrees(mesh, bend, angle);
+  const auto may_be_around = [&](Index h) {
+    return bend[h] > shallow && bend[h] <= angle &&
+           std::min(degree[mesh.from(h)], degree[mesh.to(h)]) >= kFewestCreases;
+  };
+  std::vector<std::pair<Index, Index>> around;  // facet, half-edge
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    if (may_be_around(h)) around.emplace_back(kNone, h);
+  }
+  if (around.empty()) return {};
+
   DisjointSets facets(mesh.face_count());
-  std::vector<std::uint8_t> is_corner(mesh.faces.size(), 1);
   const auto is_inside = [&](Index h) { return mesh.twin[h] != kNone && bend[h] <= kFlatBend; };
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
     if (is_inside(h)) facets.unite(TriMesh::face_of(h), TriMesh::face_of(mesh.twin[h]));
   }
+  std::vector<std::uint8_t> is_corner(mesh.faces.size(), 1);
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
-    if (is_inside(h)) continue;
-    const bool may_be_around = bend[h] > shallow && bend[h] <= angle &&
-                               std::min(degree[mesh.from(h)], degree[mesh.to(h)]) >= kFewestCreases;
-    if (!may_be_around) is_corner[facets.find(TriMesh::face_of(h))] = 0;
+    if (!is_inside(h) && !may_be_around(h)) is_corner[facets.find(TriMesh::face_of(h))] = 0;
   }
-  std::vector<std::vector<Index>> around(mesh.faces.size());
-  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
-    const Index facet = facets.find(TriMesh::face_of(h));
-    if (is_corner[facet] != 0 && !is_inside(h)) around[facet].push_back(h);
+  for (auto& [facet, h] : around) facet = facets.find(TriMesh::face_of(h));
+  std::erase_if(around, [&](const auto& side) { return is_corner[side.first] == 0; });
+  std::sort(around.begin(), around.end());
+  std::vector<std::vector<Index>> result;
+  Index last = kNone;
+  for (const auto& [facet, h] : around) {
+    if (facet != last) result.emplace_back();
+    result.back().push_back(h);
+    last = facet;
   }
-  std::erase_if(around, [](const std::vector<Index>& edges) { return edges.empty(); });
-  return around;
+  return result;
 }
 
 }  // namespace strake::import

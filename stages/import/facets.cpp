@@ -8,8 +8,7 @@
 namespace strake::import {
 namespace {
 
-constexpr double kFlatBend = 1 * kDegree;  ///< largest bend within a facet
-constexpr double kLeast = 10 * kDegree;    ///< bend; rounds of more facets are as good as smooth
+constexpr double kLeast = 10 * kDegree;  ///< bend; rounds of more facets are as good as smooth
 constexpr double kLeastShare = 2.0 / 3;
 
 /// Whether each triangle is part of a larger flat polygon. [F]

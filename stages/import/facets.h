@@ -3,8 +3,11 @@
 #include <vector>
 
 #include "common/core/tri_mesh.h"
+#include "common/geometry/angles.h"
 
 namespace strake::import {
+
+constexpr double kFlatBend = 1 * kDegree;  ///< largest bend within a facet, radians
 
 /// The edges of a surface made of facets, flat polygons of two triangles or more: those between two
 /// of them that are bent by more than 10 degrees. None where less than two thirds of what is bent

@@ -43,18 +43,21 @@ class Judge {
     const auto is_closed = [&](std::size_t c) { return is_closed_[c] != 0; };
     const std::vector<std::uint8_t> is_cavity =
         those_inside(looks_inwards, is_closed, [](int winding) { return winding >= 1; });
-    const auto is_inside_out = [&](std::size_t c) { return looks_inwards(c) && is_cavity[c] == 0; };
-    const std::vector<std::uint8_t> is_inside =
-        those_inside([&](std::size_t c) { return is_closed(c) && !is_inside_out(c); },
-                     is_inside_out, [](int winding) { return winding < 0; });
     ClosedComponents result;
     result.is_to_turn.resize(solids_.size());
     for (std::size_t c = 0; c < solids_.size(); ++c) {
-      result.count += is_closed_[c] != 0 ? 1 : 0;
+      result.count += is_closed(c) ? 1 : 0;
       result.cavities += is_cavity[c];
-      result.inside_out += is_inside_out(c) ? 1 : 0;
-      result.is_to_turn[c] = is_inside_out(c) ? 1 : is_inside[c];
+      result.is_to_turn[c] = looks_inwards(c) && is_cavity[c] == 0 ? 1 : 0;
+      result.inside_out += result.is_to_turn[c];
     }
+    if (result.inside_out == 0) return result;
+    const std::vector<std::uint8_t> is_inside_out = result.is_to_turn;
+    const std::vector<std::uint8_t> is_inside =
+        those_inside([&](std::size_t c) { return is_closed(c) && is_inside_out[c] == 0; },
+                     [&](std::size_t c) { return is_inside_out[c] != 0; },
+                     [](int winding) { return winding < 0; });
+    for (std::size_t c = 0; c < solids_.size(); ++c) result.is_to_turn[c] |= is_inside[c];
     return result;
   }
 
