@@ -47,9 +47,9 @@ TEST(Remesh, WithoutAGoalNoiseDoesNotHideTheShape) {
 
 // Lines three times as far apart as usual pass a tip by.
 TEST(Remesh, WithoutAGoalATipStays) {
-  const PolyMesh mesh = claws(1, 0.6, 0.05, 0.4, 20000);
+  const PolyMesh mesh = claws(1, 0.7, 0.05, 0.4, 20000);
   RemeshOptions options;
-  options.trace.spacing_scale = 3;
+  options.trace.spacing_scale = 3.2;
   Listener listener;
   const RemeshResult result = remesh({mesh, {}, {}, {}}, options, listener);
   EXPECT_NE(listener.said.find("tracing closer lines there"), std::string::npos);
