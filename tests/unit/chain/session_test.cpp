@@ -63,7 +63,7 @@ TEST_F(SessionTest, SnapshotsKeepWhatAStageUsesUp) {
   EXPECT_EQ(before.get<TensorField>("tensor").tensor.size(), 100u);
 }
 
-class Listener : public StageObserver {
+class LineKeeper : public StageObserver {
  public:
   void report(std::string_view /*phase*/, double /*fraction*/) override {}
   void say(const std::string& message) override { said.push_back(message); }
@@ -72,7 +72,7 @@ class Listener : public StageObserver {
 
 // A search runs stages many times, on copies of a session.
 TEST(SessionWarnings, AreSaidOnce) {
-  Listener listener;
+  LineKeeper listener;
   Session session(listener);
   Stage stage;
   stage.name = "warn";
@@ -94,7 +94,7 @@ TEST(SessionWarnings, AreSaidOnce) {
 
 // Each attempt has other numbers; only those of the one that is taken matter.
 TEST(SessionWarnings, AreThoseOfTheAttemptThatIsTaken) {
-  Listener listener;
+  LineKeeper listener;
   Session session(listener);
   Stage stage;
   stage.name = "warn";
