@@ -409,7 +409,7 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
   if (coarser) replace_crossing(session, stages, aim, crossing);
   if (may_be_decimated && decimate_if_too_coarse(session, stages, counted, wanted, crossing)) {
-    replace_crossing(session, stages, aim, crossing);
+    part_decimated(session, stages, aim, crossing);
   }
   if (session.has("uncrossed")) session.keep(stages.uncross);
   warn_of_count(session, aim);

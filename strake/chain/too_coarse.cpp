@@ -8,6 +8,7 @@
 #include <string>
 
 #include "common/core/error.h"
+#include "strake/chain/replace_crossing.h"
 #include "strake/chain/result_faults.h"
 
 namespace strake {
@@ -48,6 +49,11 @@ constexpr double kUsuallyOdd = 0.05;
 /// Times that the count is corrected where faces are counted, and error that is small enough.
 constexpr int kMostCorrections = 3;
 constexpr double kCountAccuracy = 0.02;
+/// Counts nearby that are tried where faces cross, and their distance from each other as a share of
+/// the count; share of the faces from which on others cross, too.
+constexpr int kOtherCounts = 8;
+constexpr double kNextCount = 0.004;
+constexpr double kManyCrossDecimated = 0.1;
 /// Samples of the first look: what has less than this share of a suspect distance with those is not
 /// suspect.
 constexpr double kFirstSamples = 40000;
@@ -183,6 +189,31 @@ bool decimate_if_too_coarse(Session& session, const GoalStages& stages, Counted 
                : "lines are too coarse for this shape",
       wanted, name_of(counted), triangles));
   return true;
+}
+
+void part_decimated(Session& session, const GoalStages& stages, const LineAim& aim,
+                    CrossingPlaces& crossing) {
+  std::size_t fewest = replace_crossing(session, stages, aim, crossing).size();
+  const Index faces = session.get<QuadMesh>("fitted").mesh.face_count();
+  if (crossing.input_crosses() || static_cast<double>(fewest) > kManyCrossDecimated * faces) return;
+  const std::int64_t step =
+      std::llround(std::max(1.0, kNextCount * static_cast<double>(aim.wanted)));
+  const Session first = session;
+  for (int i = 0; i < kOtherCounts && fewest > 0; ++i) {
+    const std::int64_t off = (i / 2 + 1) * step;
+    Session other = first;
+    try {
+      other = decimated(first, stages, {aim.counted, aim.wanted + (i % 2 == 0 ? off : -off)});
+    } catch (const AlgorithmError&) {
+      continue;
+    }
+    const std::size_t left = replace_crossing(other, stages, aim, crossing).size();
+    if (left >= fewest) continue;
+    fewest = left;
+    session = other;
+    session.keep(stages.decimate);
+    session.keep(stages.fit);
+  }
 }
 
 bool decimate_if_tangled(Session& session, const GoalStages& stages, CrossingPlaces& crossing,

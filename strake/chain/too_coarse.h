@@ -5,6 +5,7 @@
 #include "common/geometry/face_crossings/crossing_places.h"
 #include "strake/chain/counted.h"
 #include "strake/chain/goal_stages.h"
+#include "strake/chain/line_aim.h"
 #include "strake/chain/session.h"
 
 namespace strake {
@@ -21,6 +22,12 @@ namespace strake {
 /// \param crossing  of "mesh", like that of the others \return whether it was decimated
 bool decimate_if_too_coarse(Session& session, const GoalStages& stages, Counted counted,
                             std::int64_t wanted, CrossingPlaces& crossing);
+
+/// Takes the input's own faces where those of a decimated result cross, and where that is not
+/// enough decimates to counts nearby, whose collapses take other ways; the result with the fewest
+/// stays. \pre `decimate_if_too_coarse` decimated it to that count \param crossing  of "mesh"
+void part_decimated(Session& session, const GoalStages& stages, const LineAim& aim,
+                    CrossingPlaces& crossing);
 
 /// Where a tolerance is below the noise of a surface, so that many faces of the result cross that
 /// do not in the surface, looks whether the surface decimated to no more vertices, all its own if

@@ -210,6 +210,50 @@ TEST(TooCoarse, MoreThanTheInputHasIsNamed) {
   EXPECT_FALSE(is_said("ask for more"));
 }
 
+/// Two wavy sheets above each other.
+PolyMesh two_reliefs(double gap) {
+  PolyMesh mesh;
+  for (int sheet = 0; sheet < 2; ++sheet) {
+    const Index first = mesh.vertex_count();
+    const PolyMesh one = relief(60, [&](double x, double y) {
+      return 0.3 * std::sin(3 * x) * std::sin(2 * y) + gap * sheet;
+    });
+    mesh.positions.insert(mesh.positions.end(), one.positions.begin(), one.positions.end());
+    for (Index f = 0; f < one.face_count(); ++f) {
+      std::vector<Index> face(one.face(f).begin(), one.face(f).end());
+      for (Index& v : face) v += first;
+      mesh.add_face(face);
+    }
+  }
+  return mesh;
+}
+
+// Collapses know nothing of the other sheet; with a few more or less of them other faces are left.
+TEST(TooCoarse, DecimatedFacesThatCrossArePartedByCountsNearby) {
+  Listener listener;
+  Session session(listener);
+  session.provide("input", Polygons{two_reliefs(0.03), "", {}}, "input", "");
+  session.run(import_stage());
+  const GoalStages stages = goal_stages();
+  CrossingPlaces crossing(session.get<TriMesh>("mesh"));
+  int parted = 0;
+  for (const int count : {243, 303}) {
+    Session decimated = session;
+    stages.decimate.option("decimate-vertices").parse_into(std::to_string(count));
+    decimated.run(stages.decimate);
+    decimated.provide_as("quads", decimated.get<QuadMesh>("decimated"), "decimated");
+    decimated.run(stages.fit);
+    const std::size_t before = crossing.of(decimated.get<QuadMesh>("fitted").mesh).size();
+    part_decimated(decimated, stages, {Counted::vertices, count, count, 0}, crossing);
+    const PolyMesh& result = decimated.get<QuadMesh>(result_port(decimated)).mesh;
+    const std::size_t left = crossing.of(result).size();
+    EXPECT_LE(left, before);
+    EXPECT_NEAR(result.vertex_count(), count, 0.02 * count);
+    parted += before > 0 && left == 0 ? 1 : 0;
+  }
+  EXPECT_GT(parted, 0);
+}
+
 // A third of the vertices lies beyond their neighbours.
 TEST(TooCoarse, TangledFacesWithinAToleranceGiveWayToTheSurface) {
   const auto waves = [](double x, double y) { return 0.2 * std::sin(3 * x) * std::sin(2 * y); };
