@@ -289,6 +289,43 @@ Index drop_lumps(TriMesh& mesh) {
   });
 }
 
+/// Share of the edges that were noise, at least, where what is left may be frayed.
+constexpr double kMuchDropped = 0.1;
+/// Edges and length, as a share of the diagonal, for each corner of pieces that are, at most; and
+/// mean bend around them, at least: in flats corners are designed.
+constexpr double kEdgesOfFrayed = 10;
+constexpr double kLengthOfFrayed = 0.06;
+constexpr double kLeastAroundFrayed = 1 * kDegree;
+
+/// Takes the flags off pieces with many corners.
+///
+/// A crease that runs across the faces instead of along their edges, as in a height field or a
+/// surface of a grid of values, is chamfered by faces of all shapes. Of their edges some are bent
+/// enough to be found: bits and saws that lines and cells would have to follow.
+Index drop_frayed(TriMesh& mesh) {
+  find_corners(mesh);
+  return drop_pieces(mesh, [&](const std::vector<Index>& piece) {
+    std::set<Index> corners;
+    std::set<Index> around;
+    double length = 0;
+    for (const Index h : piece) {
+      length += edge_vector(mesh, h).norm();
+      for (const Index v : {mesh.from(h), mesh.to(h)}) {
+        if (mesh.is_corner[v] != 0) corners.insert(v);
+        for_each_outgoing(mesh, v, [&](Index e) {
+          if (mesh.is_feature[e] == 0) around.insert(mesh.edge_of(e));
+        });
+      }
+    }
+    BendSum ground;
+    for (const Index e : around) ground.add(mesh, e);
+    const auto count = static_cast<double>(corners.size());
+    return static_cast<double>(piece.size()) < kEdgesOfFrayed * count &&
+           length < kLengthOfFrayed * mesh.diagonal * count &&
+           ground.size > kLeastAroundFrayed * ground.length;
+  });
+}
+
 }  // namespace
 
 Index drop_shorter(TriMesh& mesh, double length) {
@@ -317,11 +354,13 @@ Index drop_loose(TriMesh& mesh, const std::vector<Index>& degree) {
 }
 
 Index drop_noise(TriMesh& mesh, const std::vector<float>& roughness) {
+  const auto found = std::count(mesh.is_feature.begin(), mesh.is_feature.end(), 1) / 2;
   Index dropped = 0;
   while (const Index more = NoisyLines(mesh, roughness).drop()) dropped += more;
   dropped += drop_loose_ends(mesh);
   dropped += drop_short_pieces(mesh);
   dropped += drop_lumps(mesh);
+  if (dropped > kMuchDropped * static_cast<double>(found)) dropped += drop_frayed(mesh);
   return dropped;
 }
 

@@ -36,15 +36,14 @@ std::vector<float> bend_angles(const TriMesh& mesh, const std::vector<Vec3>& nor
 }
 
 /// What the median bend around an edge exceeds that of a smooth, finely meshed surface by. The
-/// edges at its four vertices count that are bent by at most `angle`, but for those of which it is
-/// known that they are no noise, and the spokes of an even fan: those around the tip of a cone are
-/// many.
+/// edges at its four vertices count that are bent by at most `angle`, but for those that are no
+/// noise, and the spokes of an even fan: those around the tip of a cone are many.
 class Roughness {
  public:
-  /// \param is_known  [3F] edges that are no noise
+  /// \param is_no_noise  [3F] edges that are no noise
   Roughness(const TriMesh& mesh, const std::vector<float>& bend,
-            const std::vector<std::uint8_t>& is_known, double angle)
-      : mesh_(mesh), bend_(bend), is_known_(is_known), angle_(angle) {}
+            const std::vector<std::uint8_t>& is_no_noise, double angle)
+      : mesh_(mesh), bend_(bend), is_no_noise_(is_no_noise), angle_(angle) {}
 
   double operator()(Index h) {
     bends_.clear();
@@ -87,7 +86,7 @@ class Roughness {
     const bool is_fan = spokes >= kFewestSpokes;
     std::size_t i = 0;
     for_each_outgoing(mesh_, v, [&](Index e) {
-      const bool counts = mesh_.twin[e] != kNone && bend_[e] <= angle_ && is_known_[e] == 0 &&
+      const bool counts = mesh_.twin[e] != kNone && bend_[e] <= angle_ && is_no_noise_[e] == 0 &&
                           !(is_fan && is_spoke(i));
       if (counts) bends_.push_back(bend_[e]);
       ++i;
@@ -96,7 +95,7 @@ class Roughness {
 
   const TriMesh& mesh_;
   const std::vector<float>& bend_;
-  const std::vector<std::uint8_t>& is_known_;
+  const std::vector<std::uint8_t>& is_no_noise_;
   double angle_;
   std::vector<float> bends_;
   std::vector<float> around_;  ///< bends at one vertex

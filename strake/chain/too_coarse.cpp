@@ -54,6 +54,8 @@ constexpr double kCountAccuracy = 0.02;
 constexpr int kOtherCounts = 8;
 constexpr double kNextCount = 0.004;
 constexpr double kManyCrossDecimated = 0.1;
+/// Share of the faces that cross within a tolerance, from which on it is below the noise.
+constexpr double kManyCrossWithin = 0.005;
 /// Samples of the first look: what has less than this share of a suspect distance with those is not
 /// suspect.
 constexpr double kFirstSamples = 40000;
@@ -220,7 +222,7 @@ bool decimate_if_tangled(Session& session, const GoalStages& stages, CrossingPla
                          std::size_t crossing_faces) {
   const PolyMesh& lines = session.get<QuadMesh>("refined").mesh;
   const auto before = static_cast<double>(crossing_faces);
-  if (before <= kManyCross * lines.face_count()) return false;
+  if (before <= kManyCrossWithin * lines.face_count()) return false;
   session.say(fmt::format("{} faces cross; decimating to compare", crossing_faces));
   Session other = session;
   try {

@@ -132,16 +132,17 @@ std::vector<CrossingPlaces::Cluster> CrossingPlaces::clusters_of(
 
 bool CrossingPlaces::is_tangled(const Cluster& cluster, const std::vector<Place>& places) const {
   if (cluster.pairs < kPairsPerFace * cluster.faces.size()) return false;
-  const std::size_t few = (cluster.pairs - std::min(cluster.pairs, kFewPairs)) / kMostPairs;
+  // So many pairs of the input account for those of the result.
+  const std::size_t enough = (cluster.pairs - std::min(cluster.pairs, kFewPairs)) / kMostPairs;
   std::set<Index> own;
   for (const std::size_t i : cluster.faces) {
-    if (own.size() >= few) return false;
+    if (own.size() >= enough) return false;
     visit_crossings(places[i], [&](Index k) {
       own.insert(k);
-      return own.size() < few;
+      return own.size() < enough;
     });
   }
-  return own.size() < few;
+  return own.size() < enough;
 }
 
 std::vector<Vec3> CrossingPlaces::middles(const PolyMesh& result,

@@ -375,6 +375,41 @@ TEST(Features, NoiseOnScanLinesIsNoCrease) {
   }
 }
 
+/// Round terraces, whose edges run across the faces of a grid.
+PolyMesh round_terraces(int n) {
+  return shapes::grid(n, n, [](double x, double y) {
+    const double k = 8 * std::hypot(x - 0.4, 0.7 * (y - 0.45));
+    return 0.04 * (std::floor(k) + std::clamp(6 * (k - std::floor(k)) - 5, 0.0, 1.0));
+  });
+}
+
+/// Steps along the rows of a grid, of two edges each; at the place of nothing else.
+PolyMesh steps(int n, int count) {
+  PolyMesh mesh = shapes::grid(
+      n, n, [&](double, double y) { return 2.0 / n * std::floor(y * (count - 1e-9)); });
+  for (Vec3& p : mesh.positions) p.x() += 2;
+  return mesh;
+}
+
+// Bits of edges that are bent enough by chance are no creases; those along the faces stay.
+TEST(Features, CreasesAcrossFacesAreFrayed) {
+  constexpr int kSize = 120;
+  constexpr int kSteps = 6;
+  const ImportResult result =
+      imported(support::together(round_terraces(kSize), steps(kSize, kSteps)));
+  Index askew = 0;
+  Index along = 0;
+  for (Index h = 0; h < result.mesh.halfedge_count(); ++h) {
+    if (result.mesh.is_feature[h] == 0 || h > result.mesh.twin[h]) continue;
+    const Vec3& p = result.mesh.positions[result.mesh.from(h)];
+    ++(p.x() + result.mesh.origin.x() < 1.5 ? askew : along);
+  }
+  EXPECT_EQ(along, 2 * kSize * (kSteps - 1));
+  EXPECT_GT(shapes::count(result.report, "features.strong_edges") - along, 500);
+  EXPECT_LT(askew, 200);
+  EXPECT_LT(corners(result.mesh), 50);
+}
+
 /// Bent to and fro as noise is, but with flats between.
 TEST(Features, OfACorrugatedPlateAllAreKept) {
   constexpr int kFolds = 20;
