@@ -293,8 +293,8 @@ Index drop_lumps(TriMesh& mesh) {
 constexpr double kMuchDropped = 0.1;
 /// Edges and length, as a share of the diagonal, for each corner of pieces that are, at most; and
 /// mean bend around them, at least: in flats corners are designed.
-constexpr double kEdgesOfFrayed = 10;
-constexpr double kLengthOfFrayed = 0.06;
+constexpr double kEdgesOfFrayed = 20;
+constexpr double kLengthOfFrayed = 0.1;
 constexpr double kLeastAroundFrayed = 1 * kDegree;
 
 /// Takes the flags off pieces with many corners.

@@ -59,8 +59,9 @@ void warn_of_crossing(Session& session, const std::string& port) {
   session.say(fmt::format(
       "warning: {} face(s) of the result cross others where the input does not (those where it "
       "does are not counted): cells are larger than its details or than the space between its "
-      "sheets; ask for more of them",
-      faces));
+      "sheets; {}",
+      faces,
+      port == "refined" ? "a smaller --tolerance makes more of them" : "ask for more of them"));
 }
 
 }  // namespace

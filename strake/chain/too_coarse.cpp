@@ -49,9 +49,11 @@ constexpr double kUsuallyOdd = 0.05;
 /// Times that the count is corrected where faces are counted, and error that is small enough.
 constexpr int kMostCorrections = 3;
 constexpr double kCountAccuracy = 0.02;
-/// Counts nearby that are tried where faces cross, and their distance from each other as a share of
-/// the count; share of the faces from which on others cross, too.
-constexpr int kOtherCounts = 8;
+/// Counts nearby that are tried at most where faces cross, and vertices or faces in all of them;
+/// their distance from each other as a share of the count; share of the faces from which on others
+/// cross, too.
+constexpr std::int64_t kOtherCounts = 8;
+constexpr std::int64_t kMostInOthers = 16000;
 constexpr double kNextCount = 0.004;
 constexpr double kManyCrossDecimated = 0.1;
 /// Share of the faces that cross within a tolerance, from which on it is below the noise.
@@ -201,7 +203,8 @@ void part_decimated(Session& session, const GoalStages& stages, const LineAim& a
   const std::int64_t step =
       std::llround(std::max(1.0, kNextCount * static_cast<double>(aim.wanted)));
   const Session first = session;
-  for (int i = 0; i < kOtherCounts && fewest > 0; ++i) {
+  const std::int64_t most = std::min(kOtherCounts, kMostInOthers / aim.wanted);
+  for (std::int64_t i = 0; i < most && fewest > 0; ++i) {
     const std::int64_t off = (i / 2 + 1) * step;
     Session other = first;
     try {
