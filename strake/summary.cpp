@@ -41,6 +41,7 @@ std::string summary_text(const std::string& output, const PolyMesh& mesh, const 
   line("within 10 deg of own field", "alignment.within_10_deg_share", 100, "% of the edge length");
   line("smallest angle", "angles.min_deg", 1, "deg");
   count("concave faces", "faces.concave");
+  count("quads flat at a corner", "faces.flat_quads");
   if (measures->number("faces.degenerate").value_or(0) > 0) {
     count("faces without area", "faces.degenerate");
   }

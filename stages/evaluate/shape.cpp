@@ -19,6 +19,7 @@ constexpr double kDegenerate = 1e-6;
 constexpr double kConcave = 1e-9;
 constexpr double kTJointAngle = 160;
 constexpr double kSmallAngle = 10;
+constexpr double kFlatCorner = 175;
 constexpr int kLargestValence = 8;
 
 /// The form of one face.
@@ -74,6 +75,7 @@ double off_plane(const PolyMesh& mesh, Index f, double area) {
 /// Lists of figures over all faces that have an area.
 struct Collection {
   Index degenerate = 0, concave = 0;
+  Index flat_quads = 0;              // with a corner that is nearly straight
   std::vector<double> least_angles;  // of each face
   std::vector<double> angles, quad_deviation, aspect, stretch, jacobian, off_plane;
 
@@ -95,6 +97,7 @@ struct Collection {
     }
     if (n > 3) off_plane.push_back(evaluation::off_plane(mesh, f, area));
     if (n != 4) return;
+    if (largest(form.angles) >= kFlatCorner) ++flat_quads;
     for (const double angle : form.angles) quad_deviation.push_back(std::abs(angle - 90));
     const auto [shorter, longer] =
         std::minmax({form.lengths[0] + form.lengths[2], form.lengths[1] + form.lengths[3]});
@@ -127,6 +130,7 @@ void report_sides(const PolyTopology& topology, const PolyMesh& mesh,
   report.set("faces.quad_area_share", share(in_quads, total));
   report.set("faces.area", total);
   report.set("faces.concave", std::int64_t{all.concave});
+  report.set("faces.flat_quads", std::int64_t{all.flat_quads});
   report.set("faces.degenerate", std::int64_t{all.degenerate});
 }
 

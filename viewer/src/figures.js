@@ -32,6 +32,7 @@ const figures = [
   ["smallest angle", "angles.min_deg", degrees],
   ["largest angle", "angles.max_deg", degrees],
   ["concave faces", "faces.concave", whole],
+  ["quads flat at a corner", "faces.flat_quads", whole],
   ["crossing pairs of faces", "shape.self_intersecting_pairs", whole],
   ["Topology"],
   ["oriented manifold", "topology.candidate.oriented_manifold", yes],

@@ -323,6 +323,7 @@ TEST(Evaluate, TJointConcaveAndDegenerateFacesAreCounted) {
   const Report report = evaluated(shapes::reference(shapes::square(3, 0)), mesh);
   EXPECT_EQ(number(report, "valence.t_joints"), 1);
   EXPECT_EQ(number(report, "faces.concave"), 1);
+  EXPECT_EQ(number(report, "faces.flat_quads"), 1);
   EXPECT_EQ(number(report, "faces.degenerate"), 1);
   EXPECT_EQ(number(report, "faces.pentagons"), 1);
   EXPECT_GT(number(report, "angles.max_deg"), 180);
