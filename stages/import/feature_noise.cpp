@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/geometry/angles.h"
+#include "common/geometry/topology/topology.h"
 #include "common/geometry/topology/vertex_ring.h"
 #include "stages/import/feature_graph.h"
 #include "stages/import/noise.h"
@@ -289,7 +290,8 @@ Index drop_lumps(TriMesh& mesh) {
   });
 }
 
-/// Share of the edges that were noise, at least, where what is left may be frayed.
+/// Share of the edges of a component that were noise, at least, where what is left may be frayed;
+/// where the whole mesh has it any edge will do.
 constexpr double kMuchDropped = 0.1;
 /// Edges and length, as a share of the diagonal, for each corner of pieces that are, at most; and
 /// mean bend around them, at least: in flats corners are designed.
@@ -297,14 +299,44 @@ constexpr double kEdgesOfFrayed = 20;
 constexpr double kLengthOfFrayed = 0.1;
 constexpr double kLeastAroundFrayed = 1 * kDegree;
 
-/// Takes the flags off pieces with many corners.
+/// [C] whether much of what was found in a component was noise.
+/// \param found  [3F] edges flagged before \param component  [F]
+std::vector<std::uint8_t> where_much_was_noise(const TriMesh& mesh,
+                                               const std::vector<std::uint8_t>& found,
+                                               const std::vector<Index>& component) {
+  const std::size_t count = *std::ranges::max_element(component) + 1;
+  std::vector<double> before(count, 0);
+  std::vector<double> dropped(count, 0);
+  double of_all = 0;
+  double dropped_of_all = 0;
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    const int is_dropped = found[h] - mesh.is_feature[h];
+    before[component[TriMesh::face_of(h)]] += found[h];
+    dropped[component[TriMesh::face_of(h)]] += is_dropped;
+    of_all += found[h];
+    dropped_of_all += is_dropped;
+  }
+  const bool is_much_of_all = dropped_of_all > kMuchDropped * of_all;
+  std::vector<std::uint8_t> is_much(count, 0);
+  for (std::size_t c = 0; c < count; ++c) {
+    const double least = is_much_of_all ? 0 : kMuchDropped * before[c];
+    is_much[c] = dropped[c] > least ? 1 : 0;
+  }
+  return is_much;
+}
+
+/// Takes the flags off pieces with many corners in components much of which was noise.
 ///
 /// A crease that runs across the faces instead of along their edges, as in a height field or a
 /// surface of a grid of values, is chamfered by faces of all shapes. Of their edges some are bent
 /// enough to be found: bits and saws that lines and cells would have to follow.
-Index drop_frayed(TriMesh& mesh) {
+/// \param found  [3F] edges flagged before noise was dropped
+Index drop_frayed(TriMesh& mesh, const std::vector<std::uint8_t>& found) {
+  const std::vector<Index> component = face_components(mesh);
+  const std::vector<std::uint8_t> is_rough = where_much_was_noise(mesh, found, component);
   find_corners(mesh);
   return drop_pieces(mesh, [&](const std::vector<Index>& piece) {
+    if (is_rough[component[TriMesh::face_of(piece.front())]] == 0) return false;
     std::set<Index> corners;
     std::set<Index> around;
     double length = 0;
@@ -354,13 +386,13 @@ Index drop_loose(TriMesh& mesh, const std::vector<Index>& degree) {
 }
 
 Index drop_noise(TriMesh& mesh, const std::vector<float>& roughness) {
-  const auto found = std::count(mesh.is_feature.begin(), mesh.is_feature.end(), 1) / 2;
+  const std::vector<std::uint8_t> found = mesh.is_feature;
   Index dropped = 0;
   while (const Index more = NoisyLines(mesh, roughness).drop()) dropped += more;
   dropped += drop_loose_ends(mesh);
   dropped += drop_short_pieces(mesh);
   dropped += drop_lumps(mesh);
-  if (dropped > kMuchDropped * static_cast<double>(found)) dropped += drop_frayed(mesh);
+  if (dropped > 0) dropped += drop_frayed(mesh, found);
   return dropped;
 }
 
