@@ -260,6 +260,25 @@ struct BendSum {
   [[nodiscard]] bool cancels(double most_left) const { return std::abs(sum) < most_left * size; }
 };
 
+std::set<Index> vertices_of(const TriMesh& mesh, const std::vector<Index>& piece) {
+  std::set<Index> vertices;
+  for (const Index h : piece) vertices.insert({mesh.from(h), mesh.to(h)});
+  return vertices;
+}
+
+/// Of the edges at these vertices that are no features.
+BendSum ground_at(const TriMesh& mesh, const std::set<Index>& vertices) {
+  std::set<Index> edges;
+  for (const Index v : vertices) {
+    for_each_outgoing(mesh, v, [&](Index e) {
+      if (mesh.is_feature[e] == 0) edges.insert(mesh.edge_of(e));
+    });
+  }
+  BendSum ground;
+  for (const Index e : edges) ground.add(mesh, e);
+  return ground;
+}
+
 /// Takes the flags off small pieces whose edges are bent to and fro, amid edges that are, too.
 ///
 /// Single vertices that noise has moved far have sharp edges around them however fine the rest is.
@@ -273,17 +292,10 @@ Index drop_lumps(TriMesh& mesh) {
     for (const Index h : piece) own.add(mesh, h);
     if (!own.cancels(most_left.own)) return false;
     std::set<Index> around;
-    for (const Index h : piece) {
-      for (const Index v : {mesh.from(h), mesh.to(h)}) {
-        for_each_outgoing(mesh, v, [&](Index out) {
-          for_each_outgoing(mesh, mesh.to(out), [&](Index e) {
-            if (mesh.is_feature[e] == 0) around.insert(mesh.edge_of(e));
-          });
-        });
-      }
+    for (const Index v : vertices_of(mesh, piece)) {
+      for_each_outgoing(mesh, v, [&](Index out) { around.insert(mesh.to(out)); });
     }
-    BendSum ground;
-    for (const Index e : around) ground.add(mesh, e);
+    const BendSum ground = ground_at(mesh, around);
     const double least = piece.size() > kLargestLump ? kLeastAroundLarge : kLeastAround;
     return ground.size > least * ground.length && ground.cancels(most_left.around) &&
            ground.flat < kMostFlat * ground.length;
@@ -337,24 +349,15 @@ Index drop_frayed(TriMesh& mesh, const std::vector<std::uint8_t>& found) {
   find_corners(mesh);
   return drop_pieces(mesh, [&](const std::vector<Index>& piece) {
     if (is_rough[component[TriMesh::face_of(piece.front())]] == 0) return false;
-    std::set<Index> corners;
-    std::set<Index> around;
+    const std::set<Index> vertices = vertices_of(mesh, piece);
+    const auto corners = static_cast<double>(
+        std::ranges::count_if(vertices, [&](Index v) { return mesh.is_corner[v] != 0; }));
+    if (static_cast<double>(piece.size()) >= kEdgesOfFrayed * corners) return false;
     double length = 0;
-    for (const Index h : piece) {
-      length += edge_vector(mesh, h).norm();
-      for (const Index v : {mesh.from(h), mesh.to(h)}) {
-        if (mesh.is_corner[v] != 0) corners.insert(v);
-        for_each_outgoing(mesh, v, [&](Index e) {
-          if (mesh.is_feature[e] == 0) around.insert(mesh.edge_of(e));
-        });
-      }
-    }
-    BendSum ground;
-    for (const Index e : around) ground.add(mesh, e);
-    const auto count = static_cast<double>(corners.size());
-    return static_cast<double>(piece.size()) < kEdgesOfFrayed * count &&
-           length < kLengthOfFrayed * mesh.diagonal * count &&
-           ground.size > kLeastAroundFrayed * ground.length;
+    for (const Index h : piece) length += edge_vector(mesh, h).norm();
+    if (length >= kLengthOfFrayed * mesh.diagonal * corners) return false;
+    const BendSum ground = ground_at(mesh, vertices);
+    return ground.size > kLeastAroundFrayed * ground.length;
   });
 }
 

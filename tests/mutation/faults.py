@@ -489,7 +489,7 @@ FAULTS = [
     Fault("bits of creases that run across faces are features",
           "stages/import/feature_noise.cpp",
           "constexpr double kMuchDropped = 0.1;", "constexpr double kMuchDropped = 2;",
-          "import_tests", "^Features"),
+          "import_tests", "^FrayedCreases"),
     Fault("webs of noise on the lines of a scanner are features",
           "stages/import/feature_noise.cpp",
           "constexpr double kLeastAroundLarge = 15 * kDegree;",
