@@ -247,9 +247,11 @@ PolygonGraph cut_out_cells(const TriMesh& mesh, const LineSet& lines,
   return {mesh, overlay, borders};
 }
 
-Cells form_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions& options,
-                 const std::vector<Index>& component, const std::vector<Triangles>& triangles,
-                 const BorderCourse& borders, Observer& observer) {
+/// The cells between the lines, simplified and divided to faces of few sides.
+Cells divide_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions& options,
+                   const std::vector<Index>& component, const std::vector<Triangles>& triangles,
+                   const BorderCourse& borders, const SurfaceDistance& surface,
+                   Observer& observer) {
   Index cuts = 0;
   Cells cells{
       cut_out_cells(mesh, lines, component, triangles, borders, cuts, observer), {}, {}, {}, {}};
@@ -259,12 +261,16 @@ Cells form_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions& o
       simplify(cells.graph, [&](const SurfaceNode& node) { return local_size(mesh, lines, node); },
                {.shortest = kShortestEdge, .corner_distance = options.corner_distance});
   hold_triangles(component, triangles, cells.graph);
-  const SurfaceDistance surface(mesh.positions, mesh.faces);
   cells.split_features = split_crossing_features(cells.graph);
   observer.report("dividing cells", 0.8);
   cells.divided = partition(cells.graph, most_sides(options), &surface);
   cells.redrawn_flats = redraw_flats(cells.graph);
-  observer.report("pairing odd faces", 0.9);
+  return cells;
+}
+
+/// Makes quads of odd faces, vertices of valence four, and as many as are wanted.
+void regularise_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions& options,
+                      const SurfaceDistance& surface, Cells& cells) {
   const auto wanted = [&](Index dart) { return wanted_length(mesh, lines, cells.graph, dart); };
   cells.paired = pair_odd_faces(cells.graph, wanted, options.odd_price, &surface);
   if (options.pure_quads) cells.joined = join_odd_faces(cells.graph);
@@ -275,25 +281,37 @@ Cells form_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions& o
     // Strips that cannot be taken out in whole leave odd faces.
     if (options.pure_quads) cells.joined += join_odd_faces(cells.graph);
   }
-  return cells;
+}
+
+/// The faces of the result. \param triangles  [components] set to what became of theirs
+Cells form_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions& options,
+                 const BorderCourse& borders, std::vector<Triangles>& triangles,
+                 Observer& observer) {
+  const std::vector<Index> component = face_components(mesh);
+  triangles.assign(*std::max_element(component.begin(), component.end()) + 1, Triangles::merged);
+  const Triangles last = options.pure_quads ? Triangles::kept : Triangles::held;
+  const SurfaceDistance surface(mesh.positions, mesh.faces);
+  while (true) {
+    Cells cells =
+        divide_cells(mesh, lines, options, component, triangles, borders, surface, observer);
+    // Seen before the long work is done, as far as it can be.
+    if (find_starved(mesh, component, cells.graph, last, triangles)) continue;
+    observer.report("pairing odd faces", 0.9);
+    regularise_cells(mesh, lines, options, surface, cells);
+    if (!find_starved(mesh, component, cells.graph, last, triangles)) return cells;
+  }
 }
 
 }  // namespace
 
 MeshResult mesh_lines(const TriMesh& mesh, const LineSet& lines, const MeshOptions& options,
                       Observer& observer) {
-  const std::vector<Index> component = face_components(mesh);
-  std::vector<Triangles> triangles(*std::max_element(component.begin(), component.end()) + 1,
-                                   Triangles::merged);
   const BorderCourse borders =
       border_course(mesh, sizes_at_vertices(mesh, lines.spacing_along_min, lines.spacing_along_max),
                     options.border_distance ? options.border_distance->resolve(mesh.diagonal)
                                             : std::numeric_limits<double>::infinity());
-  Cells cells = form_cells(mesh, lines, options, component, triangles, borders, observer);
-  const Triangles last = options.pure_quads ? Triangles::kept : Triangles::held;
-  while (find_starved(mesh, component, cells.graph, last, triangles)) {
-    cells = form_cells(mesh, lines, options, component, triangles, borders, observer);
-  }
+  std::vector<Triangles> triangles;
+  const Cells cells = form_cells(mesh, lines, options, borders, triangles, observer);
   MeshResult result;
   result.quads = assemble(mesh, cells.graph);
   const Index at_sharp_points = meet_sharp_points(mesh, !options.pure_quads, result.quads);
