@@ -1,7 +1,10 @@
 #include "stages/mesh/regularise.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <vector>
 
@@ -52,22 +55,31 @@ class Regularising {
   /// Everything worth doing at active nodes, the best first.
   std::vector<Change> changes() {
     find_excess();
-    std::vector<Change> found;
+    std::vector<Index> quads;  // a dart of each
     graph_.for_each_cell([&](Index d, const DartLoop& cell) {
-      if (cell.size() != 4) return;
-      if (any_corner(cell, [&](Index n) { return active_[n] != 0; })) {
-        add_closing(cell[0], found);
-        add_closing(cell[1], found);
-      }
-      // An edge that is removed has such an end, which a cell at the end of the row has, too.
-      if (any_corner(cell, [&](Index n) { return excess_[n] > 0; })) {
-        std::vector<Index> row = {d};
-        add_patches(row, found);
-      }
+      if (cell.size() == 4) quads.push_back(d);
     });
+    std::vector<std::vector<Change>> of_quad(quads.size());
+    tbb::parallel_for(std::size_t{0}, quads.size(),
+                      [&](std::size_t i) { add_changes(quads[i], of_quad[i]); });
+    std::vector<Change> found;
+    for (std::vector<Change>& some : of_quad) std::ranges::move(some, std::back_inserter(found));
     std::stable_sort(found.begin(), found.end(),
                      [](const Change& a, const Change& b) { return a.gain > b.gain; });
     return found;
+  }
+
+  void add_changes(Index quad, std::vector<Change>& found) const {
+    const DartLoop cell = graph_.cell(quad);
+    if (any_corner(cell, [&](Index n) { return active_[n] != 0; })) {
+      add_closing(cell[0], found);
+      add_closing(cell[1], found);
+    }
+    // An edge that is removed has such an end, which a cell at the end of the row has, too.
+    if (any_corner(cell, [&](Index n) { return excess_[n] > 0; })) {
+      std::vector<Index> row = {quad};
+      add_patches(row, found);
+    }
   }
 
   [[nodiscard]] bool any_corner(const DartLoop& cell, const auto& is_wanted) const {
@@ -90,7 +102,7 @@ class Regularising {
   }
 
   /// Rows of quads that start with the one in `row`.
-  void add_patches(std::vector<Index>& row, std::vector<Change>& found) {
+  void add_patches(std::vector<Index>& row, std::vector<Change>& found) const {
     for (const Index out : graph_.cell(row.back())) {
       const Index across = DartGraph::opposite(out);
       if (graph_.is_barrier(out) || graph_.is_hole(across) || graph_.cell(across).size() != 4) {
