@@ -172,7 +172,8 @@ Provenance RemeshCommand::provenance() const {
 void RemeshCommand::run() {
   check();
   asked = without_inputs();
-  Repro repro{shell.repro, "strake remesh", {input}, [this] { return provenance(); }};
+  Repro repro{
+      shell.repro, "strake remesh", {input}, [this] { return provenance(); }, shell.log_format()};
   for (const SideFile& file : side_files()) repro.inputs.emplace_back(file.path);
   with_repro(repro, [this] { make_output(); });
 }

@@ -77,7 +77,12 @@ TriMesh read_tri_mesh(const std::filesystem::path& path) {
   const std::size_t vertices = mesh.positions.size();
   const std::size_t faces = mesh.faces.size();
   const std::size_t wedges = mesh.wedge_vertex.size();
+  constexpr std::size_t kAnyIndex = std::numeric_limits<Index>::max();
   file.require(faces > 0, "faces", "is empty");
+  for (const auto& [name, rows] :
+       {std::pair{"positions", vertices}, {"faces", faces}, {"wedge_vertex", wedges}}) {
+    file.require(rows <= kAnyIndex / 3, name, "claims an impossible size");
+  }
   file.require_rows(mesh.twin, 3 * faces, "twin");
   file.require_rows(mesh.vertex_out, vertices, "vertex_out");
   file.require_rows(mesh.is_feature, 3 * faces, "is_feature");
@@ -96,6 +101,8 @@ TriMesh read_tri_mesh(const std::filesystem::path& path) {
   file.require_indices(mesh.vertex_out, 0, 3 * faces, "vertex_out");
   file.require_indices(mesh.face_wedges, 0, wedges, "face_wedges");
   file.require_indices(mesh.wedge_vertex, 0, vertices, "wedge_vertex");
+  file.require_indices(mesh.source_vertex, kNone, kAnyIndex, "source_vertex");
+  file.require_indices(mesh.source_face, kNone, kAnyIndex, "source_face");
   file.require_codes(mesh.is_feature, 2, "is_feature");
   file.require_codes(mesh.is_corner, 2, "is_corner");
   require_connected(mesh, file);
@@ -103,7 +110,7 @@ TriMesh read_tri_mesh(const std::filesystem::path& path) {
   if (file.has("parent_wedge")) {
     mesh.parent_wedge = file.own<Index>("parent_wedge");
     file.require_rows(mesh.parent_wedge, wedges, "parent_wedge");
-    file.require_indices(mesh.parent_wedge, 0, std::numeric_limits<Index>::max(), "parent_wedge");
+    file.require_indices(mesh.parent_wedge, 0, kAnyIndex, "parent_wedge");
     const auto id = file.own<std::uint8_t>("parent_id");
     mesh.parent_id.assign(id.begin(), id.end());
   }

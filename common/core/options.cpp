@@ -7,33 +7,15 @@
 #include <type_traits>
 
 #include "common/core/error.h"
+#include "common/core/number_text.h"
 
 namespace strake {
 namespace {
 
-/// Shortest decimal text that reads back as the same number.
-std::string number_text(double value) {
-  char buffer[32];
-  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
-  return {buffer, result.ptr};
-}
-
-template <class Number>
-std::optional<Number> parse_number(std::string_view text) {
-  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  if constexpr (std::is_floating_point_v<Number>) {
-    if (!std::isfinite(value)) return std::nullopt;
-  }
-  return value;
-}
-
 std::optional<Length> parse_length(std::string_view text) {
   const bool relative = text.ends_with('%');
   if (relative) text.remove_suffix(1);
-  const auto value = parse_number<double>(text);
+  const auto value = parse_number(text);
   if (!value) return std::nullopt;
   return Length{relative ? *value / 100 : *value, relative};
 }
@@ -82,8 +64,10 @@ class Parser {
       refuse("true or false");
     }
   }
-  void operator()(std::int64_t* target) const { *target = number<std::int64_t>("a whole number"); }
-  void operator()(double* target) const { *target = number<double>("a number"); }
+  void operator()(std::int64_t* target) const {
+    *target = in_range(parse_whole_number(text_), "a whole number");
+  }
+  void operator()(double* target) const { *target = in_range(parse_number(text_), "a number"); }
   void operator()(std::string* target) const {
     const auto& choices = option_.choices;
     if (!choices.empty() && std::find(choices.begin(), choices.end(), text_) == choices.end()) {
@@ -118,8 +102,7 @@ class Parser {
       "a length such as 0.5% (of the bounding-box diagonal) or 2.5 (model units)";
 
   template <class Number>
-  Number number(const char* what) const {
-    const auto value = parse_number<Number>(text_);
+  Number in_range(const std::optional<Number>& value, const char* what) const {
     if (!value) refuse(allowed(what));
     check_range(static_cast<double>(*value), what);
     return *value;
@@ -147,6 +130,20 @@ const Length* length_of(const Option& option) {
   return target != nullptr && *target != nullptr && **target ? &***target : nullptr;
 }
 
+/// A number, or nothing.
+template <class T>
+std::optional<double> number_of(const T& value) {
+  if constexpr (std::is_same_v<T, std::int64_t> || std::is_same_v<T, double>) {
+    return static_cast<double>(value);
+  } else {
+    return std::nullopt;
+  }
+}
+template <class T>
+std::optional<double> number_of(const std::optional<T>& value) {
+  return value ? number_of(*value) : std::nullopt;
+}
+
 std::string text_of(bool value) { return value ? "true" : "false"; }
 std::string text_of(std::int64_t value) { return std::to_string(value); }
 std::string text_of(double value) { return number_text(value); }
@@ -168,7 +165,7 @@ std::string Length::to_string() const {
     char buffer[40];
     const auto result =
         std::to_chars(buffer, buffer + sizeof buffer, scaled, std::chars_format::general, digits);
-    const double rounded = parse_number<double>({buffer, result.ptr}).value();
+    const double rounded = parse_number({buffer, result.ptr}).value();
     if (rounded / 100 == value) return number_text(rounded) + "%";
   }
   for (const double towards : {-HUGE_VAL, HUGE_VAL}) {
@@ -190,6 +187,10 @@ Length Length::parse(std::string_view text) {
 
 std::string Option::value() const {
   return std::visit([](const auto* held) { return text_of(*held); }, target);
+}
+
+std::optional<double> Option::number() const {
+  return std::visit([](const auto* held) { return number_of(*held); }, target);
 }
 
 void Option::parse_into(std::string_view text) const { std::visit(Parser(*this, text), target); }

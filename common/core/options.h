@@ -49,6 +49,8 @@ struct Option {
 
   /// The present value as text, in the form `parse_into` reads; "" for an empty optional.
   [[nodiscard]] std::string value() const;
+  /// The present value as a number; nothing for an empty optional, and for what is no number.
+  [[nodiscard]] std::optional<double> number() const;
   /// Sets the target. \throw UsageError naming the option, the text and what is allowed
   void parse_into(std::string_view text) const;
 };

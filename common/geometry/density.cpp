@@ -46,6 +46,9 @@ std::vector<double> density_at_vertices(const TriMesh& mesh, const DensityField&
 }  // namespace
 
 std::vector<double> density_at_wedges(const TriMesh& mesh, const DensityField& density) {
+  if (mesh.source_vertex.empty()) {
+    throw PreconditionError("the mesh does not say which vertices of its file it has");
+  }
   const Index last = *std::max_element(mesh.source_vertex.begin(), mesh.source_vertex.end());
   if (last >= static_cast<Index>(density.value.size())) {
     throw PreconditionError("the density has " + std::to_string(density.value.size()) +

@@ -2,6 +2,8 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <malloc.h>
+#include <poll.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -41,11 +43,22 @@ constexpr std::chrono::milliseconds kPatience{500};
   char byte = 0;
   while (::read(pipe, &byte, 1) != 1) {
   }
-  std::this_thread::sleep_for(kPatience);
+  struct pollfd next = {pipe, POLLIN, 0};  // who asks twice does not want to wait
+  ::poll(&next, 1, static_cast<int>(kPatience.count()));
   AtomicFile::abandon_all();
   const Interrupted reason;
   say_error(program, reason.what(), reason.code(), format);
   ::_exit(static_cast<int>(reason.code()));
+}
+
+/// \param flags  of sigaction
+void handle_interrupts(int flags) {
+  struct sigaction action = {};
+  action.sa_handler = on_interrupt;
+  sigemptyset(&action.sa_mask);
+  action.sa_flags = flags;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
 }
 
 void print_event(const nlohmann::ordered_json& event) {
@@ -57,12 +70,7 @@ void print_event(const nlohmann::ordered_json& event) {
 }  // namespace
 
 void catch_interrupts() {
-  struct sigaction action = {};
-  action.sa_handler = on_interrupt;
-  sigemptyset(&action.sa_mask);
-  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  handle_interrupts(static_cast<int>(SA_RESETHAND | SA_RESTART));
   // A file that may not grow any more is an error of whoever writes it, as on a full disk.
   struct sigaction ignore = {};
   ignore.sa_handler = SIG_IGN;
@@ -75,6 +83,7 @@ void end_soon_after_interrupts(const std::string& program, LogFormat format) {
   try {
     std::thread(end_after_interrupt, ends[0], program, format).detach();
     interrupt_pipe = ends[1];
+    handle_interrupts(SA_RESTART);      // also of a second one: the thread leaves no file behind
   } catch (const std::system_error&) {  // no room for its stack: likewise
     ::close(ends[0]);
     ::close(ends[1]);
@@ -125,6 +134,7 @@ ConsoleObserver::ConsoleObserver(Verbosity verbosity, LogFormat format)
 ConsoleObserver::~ConsoleObserver() { clear_bar(); }
 
 void ConsoleObserver::begin(const std::string& label) {
+  malloc_trim(0);  // what the last one has freed makes room for this one
   clear_bar();
   label_ = label;
   phase_.clear();

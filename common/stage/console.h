@@ -20,8 +20,8 @@ enum class LogFormat { text, json };
 void catch_interrupts();
 
 /// From now on the process is ended half a second after such a signal, if it has not ended by then:
-/// algorithms look for signals only where they have a moment. Files that are not written whole are
-/// removed. For programs that have started no other processes.
+/// algorithms look for signals only where they have a moment; at once after a second one. Files
+/// that are not written whole are removed. For programs that have started no other processes.
 /// \param format  of the error that says so
 void end_soon_after_interrupts(const std::string& program, LogFormat format);
 

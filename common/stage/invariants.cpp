@@ -69,7 +69,8 @@ std::string fault_of(const LineSet& lines) {
 std::string fault_of(const QuadMesh& quads) {
   if (!finite(quads.mesh.positions)) return "a vertex that is nowhere";
   const PolyTopology topology = analyse(quads.mesh);
-  return topology.is_oriented_manifold() ? "" : topology.defects();
+  if (!topology.is_oriented_manifold()) return topology.defects();
+  return fault_unless(topology.unused_vertices == 0, "a vertex of no face");
 }
 
 }  // namespace

@@ -148,7 +148,11 @@ void make_output(const Stage& stage, const Paths& paths, const ShellOptions& she
 void run_program(const Stage& stage, const Paths& paths, const ShellOptions& shell) {
   check_paths(stage, paths, shell);
   StageRecord record{provenance_of(stage), {}};
-  Repro repro{shell.repro, "strake-" + stage.name, {}, [&] { return record.provenance; }};
+  Repro repro{shell.repro,
+              "strake-" + stage.name,
+              {},
+              [&] { return record.provenance; },
+              shell.log_format()};
   for (const Port& port : stage.inputs) {
     const std::vector<std::string>& files = paths.inputs.at(port.name);
     repro.inputs.insert(repro.inputs.end(), files.begin(), files.end());

@@ -9,7 +9,6 @@
 #include "common/artifact/text_file.h"
 #include "common/core/error.h"
 #include "common/stage/build_facts.h"
-#include "common/stage/console.h"
 
 namespace strake {
 namespace {
@@ -46,7 +45,7 @@ void keep(const Repro& repro, const std::string& message) {
     said = fmt::format("{}: warning: nothing was kept for repeating this: {}", repro.program,
                        error.what());
   }
-  fmt::print(stderr, "{}\n", highlighted(said));
+  ConsoleObserver(Verbosity::normal, repro.format).say(said);
 }
 
 }  // namespace

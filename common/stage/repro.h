@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/artifact/provenance.h"
+#include "common/stage/console.h"
 
 namespace strake {
 
@@ -15,6 +16,7 @@ struct Repro {
   std::string program;                        ///< "strake-trace"
   std::vector<std::filesystem::path> inputs;  ///< files read
   std::function<Provenance()> provenance;     ///< of the run, with all options
+  LogFormat format = LogFormat::text;         ///< of the line that says so
 };
 
 /// Runs `work`. Where it fails for a reason that lies in the program - an internal error, a result

@@ -1,13 +1,11 @@
 #include "stages/decimate/decimate.h"
 
-#include <string>
 #include <utility>
 
-#include "common/core/error.h"
 #include "common/geometry/carry_attributes.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_topology.h"
-#include "common/geometry/topology/topology.h"
+#include "common/geometry/poly_topology/same_topology.h"
 #include "stages/decimate/collapse.h"
 #include "stages/decimate/pair_triangles.h"
 
@@ -27,23 +25,6 @@ VertexProvenance provenance_of(const TriMesh& mesh, const std::vector<Index>& ve
   return result;
 }
 
-/// \throw AlgorithmError where the result is no surface of the same topology
-void check_result(const TriMesh& mesh, const PolyTopology& result) {
-  const Census wanted = census(mesh);
-  if (!result.is_oriented_manifold()) {
-    throw AlgorithmError("the decimated mesh is not an oriented manifold: " + result.defects() +
-                         "; please report this model");
-  }
-  if (result.components != wanted.components || result.boundary_loops != wanted.boundary_loops ||
-      result.euler != wanted.euler_characteristic) {
-    throw AlgorithmError(
-        "the decimated mesh has another topology than the surface: Euler "
-        "characteristic " +
-        std::to_string(result.euler) + " instead of " +
-        std::to_string(wanted.euler_characteristic) + "; please report this model");
-  }
-}
-
 }  // namespace
 
 DecimateResult decimate_to_quads(const TriMesh& mesh, const DecimateOptions& options,
@@ -59,7 +40,7 @@ DecimateResult decimate_to_quads(const TriMesh& mesh, const DecimateOptions& opt
   begin_faces_at_fans(result.quads.mesh);
   result.quads.mesh.attributes = carry_attributes(mesh, result.quads.mesh, result.quads.provenance);
   const PolyTopology topology = analyse(result.quads.mesh);
-  check_result(mesh, topology);
+  require_same_topology(mesh, topology, "the decimated mesh");
   const Index reached = result.quads.mesh.vertex_count();
   if (reached > count) {
     result.report.warn("decimation ends at " + std::to_string(reached) + " vertices where " +

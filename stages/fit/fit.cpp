@@ -11,6 +11,8 @@
 #include "common/geometry/patch_fill/mendable_crossings.h"
 #include "common/geometry/patch_fill/refill_crossing.h"
 #include "common/geometry/poly_topology/face_shape.h"
+#include "common/geometry/poly_topology/poly_topology.h"
+#include "common/geometry/poly_topology/same_topology.h"
 #include "common/geometry/surface_distance/surface_distance.h"
 #include "stages/fit/block_system.h"
 #include "stages/fit/deviation.h"
@@ -320,6 +322,7 @@ FitResult fit_vertices(const TriMesh& mesh, const PrincipalField* field, const Q
       !mendable_crossings(result.quads.mesh, result.quads.mesh.positions).empty()) {
     divided = fitting::divide_crossing_faces(result.quads.mesh);
     refilled = fit.refill(mesh, result.quads);
+    require_same_topology(mesh, analyse(result.quads.mesh), "the fitted mesh");
   }
   begin_faces_at_fans(result.quads.mesh);
   result.quads.mesh.attributes = carry_attributes(mesh, result.quads.mesh, result.quads.provenance);

@@ -10,6 +10,7 @@
 #include "common/geometry/carry_attributes.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_topology.h"
+#include "common/geometry/poly_topology/same_topology.h"
 #include "common/geometry/surface_distance/surface_distance.h"
 #include "common/geometry/topology/topology.h"
 #include "stages/mesh/cell_shape.h"
@@ -174,9 +175,9 @@ QuadMesh assemble(const TriMesh& mesh, const PolygonGraph& graph) {
   return result;
 }
 
-/// The result against the surface it came from. \throw AlgorithmError naming the difference
+/// Holds the result to the surface it came from, and to what was wanted.
+/// \throw AlgorithmError naming the difference
 void check_result(const TriMesh& mesh, const PolyMesh& quads, Index max_sides, Report& report) {
-  const Census before = census(mesh);
   const PolyTopology after = analyse(quads);
   report.set("mesh.vertices", static_cast<std::int64_t>(quads.vertex_count()));
   report.set("mesh.faces", static_cast<std::int64_t>(quads.face_count()));
@@ -186,10 +187,7 @@ void check_result(const TriMesh& mesh, const PolyMesh& quads, Index max_sides, R
   report.set("mesh.components", static_cast<std::int64_t>(after.components));
   report.set("mesh.boundary_loops", static_cast<std::int64_t>(after.boundary_loops));
   report.set("mesh.euler_characteristic", after.euler);
-  if (!after.is_oriented_manifold()) {
-    throw AlgorithmError("the mesh built from the lines is not an oriented manifold: " +
-                         after.defects() + "; please report this model");
-  }
+  require_same_topology(mesh, after, "the mesh built from the lines");
   if (const std::string defect = halfedge_defect(quads); !defect.empty()) {
     throw AlgorithmError("the mesh built from the lines has no half-edge structure: " + defect +
                          "; please report this model");
@@ -197,21 +195,6 @@ void check_result(const TriMesh& mesh, const PolyMesh& quads, Index max_sides, R
   if (after.most_sides > max_sides) {
     throw AlgorithmError("a face has " + std::to_string(after.most_sides) + " sides where " +
                          std::to_string(max_sides) + " are allowed; please report this model");
-  }
-  const auto differs = [](const std::string& what, std::int64_t is, std::int64_t should) {
-    return what + " " + std::to_string(is) + " instead of " + std::to_string(should);
-  };
-  std::string difference;
-  if (after.components != before.components) {
-    difference = differs("components", after.components, before.components);
-  } else if (after.boundary_loops != before.boundary_loops) {
-    difference = differs("boundary loops", after.boundary_loops, before.boundary_loops);
-  } else if (after.euler != before.euler_characteristic) {
-    difference = differs("Euler characteristic", after.euler, before.euler_characteristic);
-  }
-  if (!difference.empty()) {
-    throw AlgorithmError("the mesh built from the lines has another topology than the surface: " +
-                         difference + "; please report this model");
   }
 }
 

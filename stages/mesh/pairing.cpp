@@ -14,7 +14,7 @@ namespace strake {
 namespace {
 
 constexpr int kMostPairingRounds = 12;
-constexpr std::size_t kLongestChord = 24;
+constexpr std::size_t kLongestStrip = 24;
 /// Quads between two odd faces that are divided anew together with them.
 constexpr std::size_t kMostBetween = 2;
 constexpr double kLeastGain = 0.05;
@@ -25,13 +25,13 @@ constexpr double kDegreePrice = 0.1;
 
 enum class ChangeKind : std::uint8_t { divide_patch, split_strip, collapse_strip };
 
-/// A change that can be made, and what it changes: a patch or a chord.
+/// A change that can be made, and what it changes: a patch or a strip.
 struct Change {
   double gain;
   ChangeKind kind;
   Patch patch;
   Division division;
-  Chord chord;
+  Strip strip;
 };
 
 class Pairing {
@@ -65,7 +65,7 @@ class Pairing {
     });
     std::vector<std::vector<Change>> of_cell(odd_cells.size());
     tbb::parallel_for(std::size_t{0}, odd_cells.size(), [&](std::size_t i) {
-      for (const Index out : graph_.cell(odd_cells[i])) add_chords(out, of_cell[i]);
+      for (const Index out : graph_.cell(odd_cells[i])) add_strips(out, of_cell[i]);
       std::vector<Index> way = {odd_cells[i]};
       add_patches(way, of_cell[i]);
     });
@@ -76,18 +76,18 @@ class Pairing {
     return found;
   }
 
-  void add_chords(Index out, std::vector<Change>& found) const {
-    const std::optional<Chord> chord = follow_chord(graph_, out, kLongestChord);
-    if (!chord) return;
-    // Both ways along a chord are found; boundaries are reached from one end only.
-    const double bonus = price_ * (chord->ends_outside ? 1 : 2);
+  void add_strips(Index out, std::vector<Change>& found) const {
+    const std::optional<Strip> strip = follow_strip(graph_, out, kLongestStrip);
+    if (!strip) return;
+    // Both ways along a strip are found; boundaries are reached from one end only.
+    const double bonus = price_ * (strip->ends_outside ? 1 : 2);
     const auto add = [&](ChangeKind kind, double price, const auto& shape_gain) {
       if (price > bonus + kMostShapeGain) return;
-      const double gain = bonus - price + shape_gain(graph_, *chord);
-      if (gain > kLeastGain) found.push_back({gain, kind, {}, {}, *chord});
+      const double gain = bonus - price + shape_gain(graph_, *strip);
+      if (gain > kLeastGain) found.push_back({gain, kind, {}, {}, *strip});
     };
-    add(ChangeKind::split_strip, split_price(graph_, *chord, wanted_), split_gain);
-    add(ChangeKind::collapse_strip, collapse_price(graph_, *chord, wanted_), collapse_gain);
+    add(ChangeKind::split_strip, split_price(graph_, *strip, wanted_), split_gain);
+    add(ChangeKind::collapse_strip, collapse_price(graph_, *strip, wanted_), collapse_gain);
   }
 
   /// Patches that start with an odd face, go on over quads and end at another odd face.
@@ -142,9 +142,9 @@ class Pairing {
   }
 
   [[nodiscard]] bool claim(const Change& change) {
-    return change.chord.rungs.empty()
+    return change.strip.rungs.empty()
                ? claimed_.claim(change.patch.outline)
-               : claim_strip(graph_, change.chord, change.kind == ChangeKind::collapse_strip,
+               : claim_strip(graph_, change.strip, change.kind == ChangeKind::collapse_strip,
                              claimed_);
   }
 
@@ -155,11 +155,11 @@ class Pairing {
         ++counts_.divided_patches;
         break;
       case ChangeKind::split_strip:
-        split_strip(graph_, change.chord);
+        split_strip(graph_, change.strip);
         ++counts_.split_strips;
         break;
       case ChangeKind::collapse_strip:
-        collapse_strip(graph_, change.chord);
+        collapse_strip(graph_, change.strip);
         ++counts_.collapsed_strips;
         break;
     }

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "common/geometry/surface_distance/surface_distance.h"
-#include "stages/mesh/chord.h"
 #include "stages/mesh/polygon_graph.h"
+#include "stages/mesh/strip.h"
 
 namespace strake {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "stages/mesh/cell_shape.h"
-#include "stages/mesh/chord.h"
+#include "stages/mesh/strip.h"
 
 namespace strake {
 namespace {

@@ -1,13 +1,12 @@
 #include "stages/mesh/stage.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
 
+#include "common/core/number_text.h"
 #include "common/core/wanted_count.h"
 #include "stages/mesh/mesh.h"
 
@@ -19,10 +18,8 @@ std::optional<std::int64_t> wanted_of_lines(const Input& lines, Counted counted)
   if (!lines.provenance) return std::nullopt;
   for (const auto& option : lines.provenance->options) {
     if (option.name != name_of(counted)) continue;
-    std::int64_t wanted = 0;
-    const char* end = option.value.data() + option.value.size();
-    const auto [read_to, error] = std::from_chars(option.value.data(), end, wanted);
-    if (error == std::errc() && read_to == end && wanted > 0) return wanted;
+    const std::optional<std::int64_t> wanted = parse_whole_number(option.value);
+    if (wanted && *wanted > 0) return wanted;
   }
   return std::nullopt;
 }

@@ -44,14 +44,14 @@ double mean_square_bend(const PolygonGraph& graph) {
 }
 
 /// Every strip once: each edge is a rung of one at most.
-std::vector<Chord> find_strips(const PolygonGraph& graph) {
+std::vector<Strip> find_strips(const PolygonGraph& graph) {
   const DartGraph& g = graph.graph();
   std::vector<char> seen(g.dart_count() / 2, 0);
-  std::vector<Chord> strips;
+  std::vector<Strip> strips;
   const auto follow = [&](Index dart) {
     // A way that comes to no strip does not from its other edges, either.
     if (seen[DartGraph::edge_of(dart)] != 0) return;
-    std::optional<Chord> strip = follow_chord(graph, dart, kLongestStrip, &seen);
+    std::optional<Strip> strip = follow_strip(graph, dart, kLongestStrip, &seen);
     if (strip) strips.push_back(std::move(*strip));
   };
   graph.for_each_cell([&](Index /*d*/, const DartLoop& cell) {
@@ -69,7 +69,7 @@ std::vector<Chord> find_strips(const PolygonGraph& graph) {
 
 /// A strip and what it costs, for each of its rungs.
 struct Offer {
-  Chord strip;
+  Strip strip;
   double cost;
 };
 
@@ -96,7 +96,7 @@ class StripCount {
     return !taken_out && graph_.cell(dart).size() == 3 ? -odd_price_ : odd_price_;
   }
   /// Of all rungs: squared distances of lines from their straight edges, in mean ones.
-  [[nodiscard]] double errors(const Chord& strip) const {
+  [[nodiscard]] double errors(const Strip& strip) const {
     double sum = 0;
     for (const Index rung : strip.rungs) {
       const double bend = graph_.bend(rung).distance;
@@ -105,7 +105,7 @@ class StripCount {
     return sum;
   }
 
-  [[nodiscard]] double cost(const Chord& strip, bool taken_out) const {
+  [[nodiscard]] double cost(const Strip& strip, bool taken_out) const {
     const auto rungs = static_cast<double>(strip.rungs.size());
     double bonus = 0;
     if (!strip.is_closed && !strip.starts_outside)
@@ -125,7 +125,7 @@ class StripCount {
   /// What can be done, the cheapest first.
   [[nodiscard]] std::vector<Offer> offers(bool taken_out) const {
     std::vector<Offer> found;
-    for (Chord& strip : find_strips(graph_)) {
+    for (Strip& strip : find_strips(graph_)) {
       const double price = cost(strip, taken_out);
       if (price < kNever) found.push_back({std::move(strip), price});
     }

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "stages/mesh/chord.h"
 #include "stages/mesh/polygon_graph.h"
+#include "stages/mesh/strip.h"
 
 namespace strake {
 

@@ -22,6 +22,7 @@
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_edges.h"
 #include "common/geometry/poly_topology/poly_topology.h"
+#include "common/geometry/poly_topology/same_topology.h"
 #include "stages/refine/cells_beyond.h"
 #include "stages/refine/changes_within.h"
 #include "stages/refine/division_faults.h"
@@ -478,9 +479,7 @@ RefineResult refine_cells(const TriMesh& mesh, const QuadMesh& quads, const Refi
     rounds = refine_to_count(mesh, refinement, options, observer);
   }
   result.quads = refinement.quads();
-  if (const PolyTopology topology = analyse(result.quads.mesh); !topology.is_oriented_manifold()) {
-    throw AlgorithmError("the divided cells are no oriented manifold: " + topology.defects());
-  }
+  require_same_topology(mesh, analyse(result.quads.mesh), "the mesh of divided cells");
   begin_faces_at_fans(result.quads.mesh);
   result.quads.mesh.attributes = carry_attributes(mesh, result.quads.mesh, result.quads.provenance);
   result.report.set("refine.rounds", rounds);

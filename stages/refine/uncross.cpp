@@ -6,13 +6,13 @@
 #include <utility>
 #include <vector>
 
-#include "common/core/error.h"
 #include "common/geometry/carry_attributes.h"
 #include "common/geometry/cell_error/cell_error.h"
 #include "common/geometry/cell_error/tolerance_check.h"
 #include "common/geometry/face_crossings/crossing_places.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_topology.h"
+#include "common/geometry/poly_topology/same_topology.h"
 #include "stages/refine/changes_within.h"
 #include "stages/refine/inlays.h"
 #include "stages/refine/surface_points.h"
@@ -63,10 +63,7 @@ UncrossResult uncross_faces(const TriMesh& mesh, const QuadMesh& quads, Observer
   }
   if (after < before) {
     PolyMesh& made = result.quads.mesh;
-    if (const PolyTopology topology = analyse(made); !topology.is_oriented_manifold()) {
-      throw AlgorithmError("the result with faces of the input is no oriented manifold: " +
-                           topology.defects() + "; please report this model");
-    }
+    require_same_topology(mesh, analyse(made), "the result with faces of the input");
     begin_faces_at_fans(made);
     made.attributes = carry_attributes(mesh, made, result.quads.provenance);
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -138,12 +139,11 @@ std::string Chain::reach_goal(Session& session) const {
   // Counts are met by what faces are made of the lines, not by the lines themselves.
   const Option& scale = trace.option("spacing-scale");
   std::optional<OtherValue> once;
-  if (!wanted_count().empty() && scale.value().empty()) once.emplace(scale, "1");
+  if (wanted_count() && scale.value().empty()) once.emplace(scale, "1");
   for (const Counted counted : {Counted::vertices, Counted::faces}) {
     const char* name = counted == Counted::vertices ? "vertices" : "faces";
-    const std::string wanted = trace.option(name).value();
-    if (wanted.empty()) continue;
-    return meet_count(session, goal_stages, counted, std::stoll(wanted), feedback_rounds,
+    if (trace.option(name).value().empty()) continue;
+    return meet_count(session, goal_stages, counted, wanted_count().value(), feedback_rounds,
                       lines_only, working_ratio);
   }
   const std::string tolerance = trace.option("tolerance").value();
@@ -154,7 +154,7 @@ std::string Chain::reach_goal(Session& session) const {
 void Chain::keep_ridges() const {
   const std::string tolerance = trace.option("tolerance").value();
   const Option& height = import.option("feature-height");
-  const bool keeps_features = std::stod(import.option("feature-angle").value()) < 180;
+  const bool keeps_features = import.option("feature-angle").number() < 180;
   if (tolerance.empty() || !height.value().empty() || !keeps_features) return;
   Length ridge = Length::parse(tolerance);
   ridge.value *= kRidgeHeight;
@@ -163,19 +163,20 @@ void Chain::keep_ridges() const {
 
 std::optional<Length> Chain::height_of_facets(const Session& session, double diagonal) const {
   const auto is_given = [&](const char* name) { return !import.option(name).value().empty(); };
-  const std::string angle = import.option("feature-angle").value();
-  const std::string wanted = wanted_count();
-  if (angle != fmt::format("{}", ImportOptions{}.feature_angle_deg) || is_given("feature-height") ||
-      is_given("facet-height") || wanted.empty()) {
+  const std::optional<std::int64_t> wanted = wanted_count();
+  if (import.option("feature-angle").number() != ImportOptions{}.feature_angle_deg ||
+      is_given("feature-height") || is_given("facet-height") || !wanted) {
     return std::nullopt;
   }
   // A quad-dominant mesh has about as many faces as vertices.
-  return facet_height(session.get<Polygons>("input").mesh, diagonal, std::stod(wanted));
+  return facet_height(session.get<Polygons>("input").mesh, diagonal, static_cast<double>(*wanted));
 }
 
-std::string Chain::wanted_count() const {
-  const std::string vertices = trace.option("vertices").value();
-  return vertices.empty() ? trace.option("faces").value() : vertices;
+std::optional<std::int64_t> Chain::wanted_count() const {
+  for (const char* name : {"vertices", "faces"}) {
+    if (const auto count = trace.option(name).number()) return std::llround(*count);
+  }
+  return std::nullopt;
 }
 
 std::string Chain::run_with_facets(Session& session, const Length& height) const {
@@ -184,7 +185,7 @@ std::string Chain::run_with_facets(Session& session, const Length& height) const
                         [&](Session& other) { return reach_goal(other); }};
   return make_with_facets_if_better(session, way, import.option("facet-height"), height,
                                     is_of_vertices ? Counted::vertices : Counted::faces,
-                                    std::stoll(wanted_count()));
+                                    wanted_count().value());
 }
 
 void Chain::import_mesh(Session& session) const {

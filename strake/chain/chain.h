@@ -58,8 +58,8 @@ struct Chain {
   /// \param diagonal  of the input, model units
   [[nodiscard]] std::optional<Length> height_of_facets(const Session& session,
                                                        double diagonal) const;
-  /// The number of vertices or faces wanted; "" where there is none.
-  [[nodiscard]] std::string wanted_count() const;
+  /// The number of vertices or faces wanted.
+  [[nodiscard]] std::optional<std::int64_t> wanted_count() const;
   /// Makes a result for a count, with edges between facets as features or without.
   /// \param height  of these
   std::string run_with_facets(Session& session, const Length& height) const;

@@ -142,8 +142,14 @@ std::string make_with_facets_if_better(Session& session, const WayToResult& way,
   // Once more: what is kept is to be of nothing else.
   HeldWarnings said_before(user);
   session.report_to(said_before);
-  import_into(session, with_facets);
-  std::string port = way.reach_goal(session);
+  std::string port;
+  try {
+    import_into(session, with_facets);
+    port = way.reach_goal(session);
+  } catch (...) {
+    session.report_to(user);
+    throw;
+  }
   session.report_to(user);
   return port;
 }

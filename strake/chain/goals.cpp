@@ -77,7 +77,8 @@ constexpr const char* kAnyDistance = "1";
 /// \return what the result misses; nothing where "refined" is within the tolerance
 std::optional<ToleranceError> refine_in_turn(Session& session, const GoalStages& stages) {
   const Option& rounds = stages.refine.option("refine-rounds");
-  for (int i = 0; i < std::min(kFittedRefinements, std::stoi(rounds.value())); ++i) {
+  const double most = std::min<double>(kFittedRefinements, *rounds.number());
+  for (int i = 0; i < most; ++i) {
     const OtherValue once(rounds, "1");
     const OtherValue may_miss(stages.refine.option("refine-partly"), "true");
     session.run(stages.refine);
@@ -286,7 +287,7 @@ void trace_to_count(Session& session, const GoalStages& stages, const LineAim& a
   bool has_strips = find_lines(session, stages, aim, feedback_rounds);
   // Corners of features stay where that is possible at this count.
   const Option& distance = stages.mesh.option("corner-distance");
-  const bool is_users = distance.value() != fmt::format("{}", MeshOptions{}.corner_distance);
+  const bool is_users = distance.number() != MeshOptions{}.corner_distance;
   const bool are_many = corner_count(session) > kManyCorners * static_cast<double>(aim.wanted);
   std::optional<OtherValue> merging;
   if (!is_users && are_many && is_exceeded(session, aim)) {

@@ -7,6 +7,7 @@
 
 #include "common/core/fields.h"
 #include "common/core/line_set.h"
+#include "common/core/number_text.h"
 #include "common/core/poly_mesh.h"
 #include "common/core/tri_mesh.h"
 #include "common/geometry/mesh_measures.h"
@@ -91,18 +92,17 @@ void trace_mesh_and_fit(Session& session, const GoalStages& stages) {
 void fit_before_dividing(Session& session, const GoalStages& stages) {
   const Option& rounds = stages.fit.option("fit-rounds");
   const OtherValue few(rounds,
-                       std::to_string(std::min(kRoundsBeforeDividing, std::stoi(rounds.value()))));
+                       number_text(std::min<double>(kRoundsBeforeDividing, *rounds.number())));
   session.run(stages.fit);
 }
 
 void scale_lines(const GoalStages& stages, double scale) {
   const Option& option = stages.trace.option("spacing-scale");
-  option.parse_into(fmt::format("{}", std::clamp(scale, option.min, option.max)));
+  option.parse_into(number_text(std::clamp(scale, option.min, option.max)));
 }
 
 double line_scale(const GoalStages& stages) {
-  const std::string value = stages.trace.option("spacing-scale").value();
-  return value.empty() ? 1 : std::stod(value);
+  return stages.trace.option("spacing-scale").number().value_or(1);
 }
 
 void feed_back(Session& session, const GoalStages& stages, const LineAim& aim) {

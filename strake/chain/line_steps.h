@@ -15,11 +15,11 @@ namespace strake {
 /// Traces and makes cells anew: "lines" and "quads".
 void trace_and_mesh(Session& session, const GoalStages& stages);
 
-/// Makes cells of the present lines anew, with strips of quads split or taken out for the count.
-void mesh_with_strips(Session& session, const GoalStages& stages, const LineAim& aim);
-
 /// Likewise, and fits and keeps the result: "fitted".
 void trace_mesh_and_fit(Session& session, const GoalStages& stages);
+
+/// Makes cells of the present lines anew, with strips of quads split or taken out for the count.
+void mesh_with_strips(Session& session, const GoalStages& stages, const LineAim& aim);
 
 /// Keeps lines, cells and the fitted result as they are.
 void keep_fitted(Session& session, const GoalStages& stages);

@@ -1,13 +1,12 @@
 #include "strake/chain/working_mesh.h"
 
-#include <malloc.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
 
 #include "common/core/fields.h"
+#include "common/core/number_text.h"
 #include "common/core/poly_mesh.h"
 #include "common/core/tri_mesh.h"
 #include "strake/chain/counted.h"
@@ -60,9 +59,8 @@ void take_from_coarser_mesh(Session& session, Session coarser, const GoalStages&
   session.run(stages.prolong);
   session.keep(stages.prolong);
   for (const char* port : {"coarse", "coarse-field", "coarse-quads"}) session.withdraw(port);
-  malloc_trim(0);  // fitting to the input takes more than anything before: what is free makes room
   const Option& rounds = stages.fit.option("fit-rounds");
-  const OtherValue few(rounds, std::to_string(std::min(kLastRounds, std::stoi(rounds.value()))));
+  const OtherValue few(rounds, number_text(std::min<double>(kLastRounds, *rounds.number())));
   session.run(stages.fit);
   session.keep(stages.fit);
 }

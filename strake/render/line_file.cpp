@@ -1,9 +1,11 @@
 #include "strake/render/line_file.h"
 
+#include <cstdint>
 #include <fstream>
 #include <sstream>
 
 #include "common/core/error.h"
+#include "common/core/number_text.h"
 
 namespace strake {
 namespace {
@@ -13,13 +15,12 @@ namespace {
   throw InputError(path.string() + ", line " + std::to_string(line) + ": " + what);
 }
 
+/// \return kNone where the word names no point that was read before
 Index point_index(const std::string& word, const Polylines& lines) {
-  std::size_t used = 0;
-  const long long number = std::stoll(word, &used);
-  const auto count = static_cast<long long>(lines.positions.size());
-  const long long index = number < 0 ? count + number : number - 1;
-  if (index < 0 || index >= count) throw std::out_of_range(word);
-  return static_cast<Index>(index);
+  const auto count = static_cast<std::int64_t>(lines.positions.size());
+  const std::int64_t number = parse_whole_number(word).value_or(0);
+  const std::int64_t index = number < 0 ? count + number : number - 1;
+  return index < 0 || index >= count ? kNone : static_cast<Index>(index);
 }
 
 }  // namespace
@@ -44,9 +45,8 @@ Polylines read_polylines(const std::filesystem::path& path) {
     } else if (word == "l") {
       Polylines::Line line{{}, group};
       while (record >> word) {
-        try {
-          line.points.push_back(point_index(word, result));
-        } catch (const std::logic_error&) {
+        line.points.push_back(point_index(word, result));
+        if (line.points.back() == kNone) {
           fail(path, number, "'" + word + "' is not a vertex read before");
         }
       }

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "common/core/error.h"
+#include "common/core/number_text.h"
 #include "strake/render/shown_run.h"
 
 namespace strake {
@@ -34,12 +35,7 @@ void check_word(const std::string& word, const Words& known, const char* what) {
 }
 
 double number(const std::string& text) {
-  try {
-    std::size_t end = 0;
-    const double value = std::stod(text, &end);
-    if (end == text.size() && std::isfinite(value)) return value;
-  } catch (const std::exception&) {  // said below
-  }
+  if (const std::optional<double> value = parse_number(text)) return *value;
   throw UsageError("view: '" + text + "' is no number");
 }
 

@@ -100,7 +100,8 @@ RTCRay make_ray(const Vec3& origin, const Vec3& direction, double reach, unsigne
 
 }  // namespace
 
-Scene::Scene(PolyMesh mesh, const std::string& name, bool flat, const std::optional<Frame>& frame)
+Scene::Scene(PolyMesh mesh, const std::string& name, bool flat,
+             const std::optional<SceneFrame>& frame)
     : mesh_(std::move(mesh)) {
   normalise(name, frame);
   device_.reset(rtcNewDevice(nullptr));
@@ -112,7 +113,7 @@ Scene::Scene(PolyMesh mesh, const std::string& name, bool flat, const std::optio
 
 Scene::~Scene() = default;
 
-void Scene::normalise(const std::string& name, const std::optional<Frame>& frame) {
+void Scene::normalise(const std::string& name, const std::optional<SceneFrame>& frame) {
   Eigen::AlignedBox3d box;
   for (const Index v : mesh_.corners) box.extend(mesh_.positions[v]);
   if (box.isEmpty() || !(box.diagonal().norm() > 0) || !box.diagonal().allFinite()) {

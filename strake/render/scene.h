@@ -27,7 +27,7 @@ struct Hit {
 };
 
 /// What is moved and scaled to be centred and of size 1.
-struct Frame {
+struct SceneFrame {
   Vec3 centre = Vec3::Zero();
   double diagonal = 1;
 };
@@ -48,7 +48,8 @@ class Scene {
   /// \param flat  one normal per face instead of normals that are averaged over smooth vertices
   /// \throw InputError where the mesh has no face or no extent
   /// \param frame  of something else that the mesh is to be shown like; default: its bounding box
-  Scene(PolyMesh mesh, const std::string& name, bool flat, const std::optional<Frame>& frame = {});
+  Scene(PolyMesh mesh, const std::string& name, bool flat,
+        const std::optional<SceneFrame>& frame = {});
   ~Scene();
 
   /// Adds polylines (model coordinates) as thin tubes; once, before `commit`.
@@ -67,7 +68,7 @@ class Scene {
   [[nodiscard]] Vec3 place(const Vec3& point) const { return scale_ * (point - centre_); }
 
  private:
-  void normalise(const std::string& name, const std::optional<Frame>& frame);
+  void normalise(const std::string& name, const std::optional<SceneFrame>& frame);
   void build_surface(bool flat);
   void attach(RTCGeometry geometry, unsigned id, unsigned mask);
 

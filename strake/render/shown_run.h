@@ -33,7 +33,7 @@ struct ShownRun {
   PolyMesh mesh;                   ///< model coordinates
   std::vector<Vec3> face_colours;  ///< [F] sRGB in [0, 1]; empty: by number of sides
   Polylines lines;                 ///< model coordinates
-  Frame frame;                     ///< of the input
+  SceneFrame frame;                ///< of the input
   bool has_edges = false;          ///< whether the edges of `mesh` are drawn
 };
 

@@ -10,6 +10,7 @@
 
 #include "common/artifact/digest.h"
 #include "common/core/error.h"
+#include "common/core/number_text.h"
 #include "strake/run/rules.h"
 #include "strake/run/stage_catalog.h"
 
@@ -56,7 +57,7 @@ double sample_faces(const Step& step) {
   const Provenance provenance = step_provenance(step);
   const auto faces = std::find_if(provenance.options.begin(), provenance.options.end(),
                                   [](const auto& option) { return option.name == "faces"; });
-  return faces == provenance.options.end() ? 0 : std::stod(faces->value);
+  return faces == provenance.options.end() ? 0 : parse_number(faces->value).value_or(0);
 }
 
 /// Vertices that the options of a step ask for, roughly; 0 where they do not say.
@@ -67,7 +68,7 @@ double wanted_vertices(const Step& step) {
   for (const Provenance::OptionRecord& option : step_provenance(step).options) {
     if (option.value.empty()) continue;
     if (std::find(kCounts.begin(), kCounts.end(), option.name) != kCounts.end()) {
-      wanted = std::stod(option.value);
+      wanted = parse_number(option.value).value_or(0);
     } else if (option.name == "tolerance" || option.name == "refine-tolerance") {
       const Length tolerance = Length::parse(option.value);
       if (tolerance.relative) wanted = vertices_within(tolerance.value);

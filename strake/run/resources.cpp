@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <stdexcept>
 #include <string>
 #include <utility>
+
+#include "common/core/number_text.h"
 
 namespace strake {
 namespace {
@@ -25,18 +26,14 @@ struct Cost {
 /// A number followed by one of the units, or by nothing.
 std::optional<double> parse_with_unit(std::string_view text,
                                       const std::map<std::string, double, std::less<>>& units) {
-  try {
-    std::size_t used = 0;
-    const double number = std::stod(std::string(text), &used);
-    while (used < text.size() && text[used] == ' ') ++used;
-    const std::string_view unit = text.substr(used);
-    const auto factor = units.find(unit);
-    if (!unit.empty() && factor == units.end()) return std::nullopt;
-    const double amount = unit.empty() ? number : number * factor->second;
-    return amount >= 0 && amount <= kLargest ? std::optional(amount) : std::nullopt;
-  } catch (const std::logic_error&) {
-    return std::nullopt;
-  }
+  std::string_view unit = text;
+  const std::optional<double> number = take_number(unit);
+  if (!number) return std::nullopt;
+  while (unit.starts_with(' ')) unit.remove_prefix(1);
+  const auto factor = units.find(unit);
+  if (!unit.empty() && factor == units.end()) return std::nullopt;
+  const double amount = unit.empty() ? *number : *number * factor->second;
+  return amount >= 0 && amount <= kLargest ? std::optional(amount) : std::nullopt;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "common/core/error.h"
+#include "common/core/number_text.h"
 #include "strake/run/stage_catalog.h"
 
 namespace strake {
@@ -51,17 +52,11 @@ const Rule* maker_of(const std::vector<Rule>& rules, const std::string& artifact
 
 std::int64_t whole_number(const YamlView& view, std::int64_t least, std::int64_t most) {
   const std::string text = view.text("a number");
-  std::size_t used = 0;
-  std::int64_t number = 0;
-  try {
-    number = std::stoll(text, &used);
-  } catch (const std::logic_error&) {
-    used = 0;
-  }
-  if (used != text.size() || number < least || number > most) {
+  const std::optional<std::int64_t> number = parse_whole_number(text);
+  if (!number || *number < least || *number > most) {
     view.fail(fmt::format("'{}' must be a whole number from {} to {}", text, least, most));
   }
-  return number;
+  return *number;
 }
 
 void read_resources(const YamlView& view, Rule& rule) {

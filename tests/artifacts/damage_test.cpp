@@ -156,6 +156,8 @@ TEST_F(Damage, IndicesOutOfRangeAndNumbersThatAreNoneAreRefused) {
   refuses(ArtifactKind::mesh, "/mesh/twin", 0, H5T_NATIVE_INT32, 3 * values.mesh.face_count());
   refuses(ArtifactKind::mesh, "/mesh/twin", 3, H5T_NATIVE_INT32, 3);
   refuses(ArtifactKind::mesh, "/mesh/wedge_vertex", 0, H5T_NATIVE_INT32, vertices);
+  refuses(ArtifactKind::mesh, "/mesh/source_vertex", 1, H5T_NATIVE_INT32, -5);
+  refuses(ArtifactKind::mesh, "/mesh/source_face", 2, H5T_NATIVE_INT32, -2);
   refuses(ArtifactKind::mesh, "/mesh/positions", 7, H5T_NATIVE_DOUBLE, nan);
   refuses(ArtifactKind::mesh, "/mesh/is_corner", 2, H5T_NATIVE_INT32, 2);
   refuses(ArtifactKind::tensor, "/tensor/tensor", 4, H5T_NATIVE_DOUBLE, nan);

@@ -199,7 +199,7 @@ FAULTS = [
           "static_cast<Index>(cell.size()) > max_sides_ ||",
           "static_cast<Index>(cell.size()) > max_sides_ + 1 ||", "mesh_tests", "^MeshLines"),
     Fault("an edge between two triangles is halved",
-          "stages/mesh/chord.cpp",
+          "stages/mesh/strip.cpp",
           "graph.cell(other).size() == 3;", "graph.cell(other).size() == 2;",
           "mesh_tests", "^PairOddFaces"),
     Fault("a quad that is closed at a feature moves the vertex on it",

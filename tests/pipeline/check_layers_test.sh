@@ -46,4 +46,18 @@ expect refuse common/artifact/other.cpp '#include <hdf5.h>'
 expect refuse common/artifact/other.cpp '#include "common/stage/stage.h"'
 expect refuse common/stage/other.cpp '#include "stages/mesh/mesh.h"'
 expect refuse strake/x.cpp '#include <hdf5.h>'
+expect accept strake/x.cpp 'auto number = parse_number(text);'
+expect refuse strake/x.cpp 'double number = std::stod(text);'
+expect refuse common/core/x.cpp 'double number = strtod(text, nullptr);'
+
+printf 'namespace strake {\nstruct Chord {\n};\nclass Known;\n' >"$tree/stages/mesh/mesh.h"
+expect accept stages/trace/chord.h 'namespace strake::tracing { struct Chord {}; }'
+printf 'namespace strake {\n' >"$tree/stages/trace/trace.h"
+expect accept stages/trace/other.h 'class Chord;'
+printf 'namespace strake {\nclass Chord : public Known {\n' >"$tree/stages/trace/trace.h"
+if "$check" "$tree" >"$tree/log" 2>&1 || ! grep -q 'trace/trace.h:2: strake::Chord is defined in stages/mesh/mesh.h' "$tree/log"; then
+  echo "expected to refuse two types of the same name" >&2
+  cat "$tree/log" >&2
+  exit 1
+fi
 echo "check_layers keeps the layers"

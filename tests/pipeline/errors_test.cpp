@@ -1,5 +1,8 @@
 #include <array>
 #include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
 
 #include "common/artifact/artifact.h"
 #include "tests/pipeline/run_program.h"
@@ -184,6 +187,12 @@ TEST_F(Errors, UnsoundResultsAreNotWrittenAndCanBeRepeated) {
   }
   must_fail(kInternal, "strake-smooth failed/1-mesh.hdf failed/2-huge.hdf -o f.hdf", "is unsound");
   must_fail(kInternal, command + " --repro mesh.hdf", "nothing was kept");
+  std::istringstream log(run(command + " --repro failed --log-json").err);
+  std::string said;
+  for (std::string line; std::getline(log, line);) {
+    said = nlohmann::json::parse(line).value("text", said);
+  }
+  EXPECT_NE(said.find("are in 'failed'"), std::string::npos) << said;
   // Nothing is kept of faults of the input.
   must_fail(kBadInput, "strake-smooth mesh.hdf nowhere.hdf -o f.hdf --repro none", "nowhere.hdf");
   EXPECT_FALSE(std::filesystem::exists(file("none")));
@@ -222,6 +231,18 @@ TEST_F(Errors, InterruptionStopsWithoutOutput) {
   const Outcome outcome = shell("bash interrupt.sh");
   EXPECT_EQ(outcome.exit_code, kInterrupted) << bytes("err.txt");
   EXPECT_FALSE(std::filesystem::exists(file("large.obj")));
+}
+
+/// Where the program was ended by the second signal, files that were not whole stayed behind.
+TEST_F(Errors, SecondInterruptionEndsInOrder) {
+  must("strake sample sphere -o large.ply --faces 300000");
+  const std::string program = STRAKE_BIN "/strake";
+  put("interrupt.sh", program +
+                          " remesh large.ply -o large.obj 2>err.txt & p=$!\n"
+                          "until grep -q tensor: err.txt; do sleep 0.02; done\n"
+                          "kill -TERM $p\nkill -INT $p\nkill -TERM $p\nwait $p\n");
+  EXPECT_EQ(shell("bash interrupt.sh").exit_code, kInterrupted) << bytes("err.txt");
+  EXPECT_NE(bytes("err.txt").find("interrupted"), std::string::npos) << bytes("err.txt");
 }
 
 }  // namespace

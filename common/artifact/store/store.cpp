@@ -26,10 +26,15 @@ constexpr const char* kManifest = "manifest.json";
 constexpr const char* kFormatFile = "strake-store.json";
 constexpr std::size_t kKeyDigitsInName = 16;
 
+/// Names of files and warnings may be no UTF-8: what is not is replaced.
+std::string text_of(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
 /// Digest of all that a manifest says, so that a damaged one is known from a sound one.
 std::string seal_of(Json manifest) {
   manifest.erase("seal");
-  return digest_text(manifest.dump());
+  return digest_text(text_of(manifest, -1));
 }
 
 std::string manifest_text(const Entry& entry) {
@@ -47,7 +52,7 @@ std::string manifest_text(const Entry& entry) {
   };
   if (!entry.warnings.empty()) json["warnings"] = entry.warnings;
   json["seal"] = seal_of(json);
-  return json.dump(1) + "\n";
+  return text_of(json, 1) + "\n";
 }
 
 /// \throw nlohmann::json::exception, InputError where the text is no manifest

@@ -1,4 +1,4 @@
-#include "stages/mesh/chord.h"
+#include "stages/mesh/strip.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -59,9 +59,9 @@ bool is_between_triangles(const PolygonGraph& graph, Index dart) {
 
 /// Where the ends of the rungs meet when a strip is taken out: in the middle, or at the end that is
 /// on a feature or boundary. Nothing where both are, or where the strip touches itself.
-std::optional<Moves> merging_moves(const PolygonGraph& graph, const Chord& chord) {
+std::optional<Moves> merging_moves(const PolygonGraph& graph, const Strip& strip) {
   Moves moves;
-  for (const Index rung : chord.rungs) {
+  for (const Index rung : strip.rungs) {
     const Index a = graph.graph().from(rung);
     const Index b = graph.graph().to(rung);
     const bool a_free = graph.rank(a) == NodeRank::line;
@@ -77,25 +77,25 @@ std::optional<Moves> merging_moves(const PolygonGraph& graph, const Chord& chord
 
 }  // namespace
 
-std::optional<Chord> follow_chord(const PolygonGraph& graph, Index dart, std::size_t most,
+std::optional<Strip> follow_strip(const PolygonGraph& graph, Index dart, std::size_t most,
                                   std::vector<char>* crossed) {
   const DartGraph& g = graph.graph();
-  Chord chord;
-  chord.starts_outside = graph.is_outer(dart);
-  const bool starts_in_quad = !chord.starts_outside && graph.cell(dart).size() == 4;
+  Strip strip;
+  strip.starts_outside = graph.is_outer(dart);
+  const bool starts_in_quad = !strip.starts_outside && graph.cell(dart).size() == 4;
   std::vector<Index> visited;
-  if (!chord.starts_outside) visited.push_back(graph.name_of_cell(dart));
+  if (!strip.starts_outside) visited.push_back(graph.name_of_cell(dart));
   for (Index d = dart;;) {
-    chord.rungs.push_back(d);
+    strip.rungs.push_back(d);
     if (crossed != nullptr) (*crossed)[DartGraph::edge_of(d)] = 1;
-    if (chord.rungs.size() > most) return std::nullopt;
+    if (strip.rungs.size() > most) return std::nullopt;
     const Index across = DartGraph::opposite(d);
-    chord.ends_outside = graph.is_outer(across);
-    if (chord.ends_outside) break;
+    strip.ends_outside = graph.is_outer(across);
+    if (strip.ends_outside) break;
     const std::size_t sides = graph.cell(across).size();
     const Index next = g.next(g.next(across));
-    chord.is_closed = starts_in_quad && sides == 4 && next == dart;
-    if (chord.is_closed) return chord;
+    strip.is_closed = starts_in_quad && sides == 4 && next == dart;
+    if (strip.is_closed) return strip;
     const Index name = graph.name_of_cell(across);
     if (std::find(visited.begin(), visited.end(), name) != visited.end()) return std::nullopt;
     if (sides == 3 || sides == 5) break;
@@ -104,7 +104,7 @@ std::optional<Chord> follow_chord(const PolygonGraph& graph, Index dart, std::si
     d = next;
   }
   if (starts_in_quad) return std::nullopt;
-  return chord;
+  return strip;
 }
 
 bool can_halve(const PolygonGraph& graph, Index dart) {
@@ -116,37 +116,37 @@ bool can_halve(const PolygonGraph& graph, Index dart) {
   return g.to(g.next(g.next(dart))) != g.to(g.next(g.next(other)));
 }
 
-double split_price(const PolygonGraph& graph, const Chord& chord, const EdgeLength& wanted) {
+double split_price(const PolygonGraph& graph, const Strip& strip, const EdgeLength& wanted) {
   double price = 0;
-  for (const Index rung : chord.rungs) {
+  for (const Index rung : strip.rungs) {
     price += kSplitPrice * std::max(0.0, 2 - edge_ratio(graph, rung, wanted));
   }
   return price;
 }
 
-double split_gain(const PolygonGraph& graph, const Chord& chord) {
+double split_gain(const PolygonGraph& graph, const Strip& strip) {
   // The middles of two rungs around two quads would be joined twice.
-  if (chord.is_closed && chord.rungs.size() < 3) return kNever;
-  if (chord.rungs.size() == 1) {
-    const Index rung = chord.rungs.front();
+  if (strip.is_closed && strip.rungs.size() < 3) return kNever;
+  if (strip.rungs.size() == 1) {
+    const Index rung = strip.rungs.front();
     if (!can_halve(graph, rung) || is_between_triangles(graph, rung)) return kNever;
   }
   double gain = 0;
-  Index before = chord.is_closed ? chord.rungs.back() : kNone;
-  for (const Index rung : chord.rungs) {
-    const bool is_outside = chord.starts_outside && before == kNone;
+  Index before = strip.is_closed ? strip.rungs.back() : kNone;
+  for (const Index rung : strip.rungs) {
+    const bool is_outside = strip.starts_outside && before == kNone;
     const Index in = before == kNone ? kNone : DartGraph::opposite(before);
     if (!is_outside) gain += halving_gain(graph, in, rung);
     if (!(gain > kNever)) return kNever;
     before = rung;
   }
-  if (!chord.ends_outside && !chord.is_closed) {
-    gain += halving_gain(graph, kNone, DartGraph::opposite(chord.rungs.back()));
+  if (!strip.ends_outside && !strip.is_closed) {
+    gain += halving_gain(graph, kNone, DartGraph::opposite(strip.rungs.back()));
   }
   return gain;
 }
 
-void split_strip(PolygonGraph& graph, const Chord& chord) {
+void split_strip(PolygonGraph& graph, const Strip& strip) {
   const DartGraph& g = graph.graph();
   const auto connect_across = [&](Index leaving) {  // in an odd face
     if (graph.cell(leaving).size() == 6) {
@@ -155,40 +155,40 @@ void split_strip(PolygonGraph& graph, const Chord& chord) {
   };
   Index first = kNone;   // dart that leaves the first new node into the cell it came from
   Index behind = kNone;  // dart that leaves the last new node into the cell ahead
-  for (const Index rung : chord.rungs) {
+  for (const Index rung : strip.rungs) {
     const Index leaving = graph.split(rung, 0.5);
     const Index ahead = DartGraph::opposite(g.prev(leaving));
     if (behind != kNone) {
       graph.connect(behind, leaving);
-    } else if (chord.is_closed) {
+    } else if (strip.is_closed) {
       first = leaving;
-    } else if (!chord.starts_outside) {
+    } else if (!strip.starts_outside) {
       connect_across(leaving);
     }
     behind = ahead;
   }
-  if (chord.is_closed) {
+  if (strip.is_closed) {
     graph.connect(behind, first);
-  } else if (!chord.ends_outside) {
+  } else if (!strip.ends_outside) {
     connect_across(behind);
   }
 }
 
-double collapse_price(const PolygonGraph& graph, const Chord& chord, const EdgeLength& wanted) {
+double collapse_price(const PolygonGraph& graph, const Strip& strip, const EdgeLength& wanted) {
   double price = 0;
-  for (const Index rung : chord.rungs) {
+  for (const Index rung : strip.rungs) {
     const double ratio = edge_ratio(graph, rung, wanted);
     price += kCollapsePrice * ratio * ratio;
   }
   return price;
 }
 
-double collapse_gain(const PolygonGraph& graph, const Chord& chord) {
-  if (chord.starts_outside || chord.ends_outside) return kNever;
-  const std::optional<Moves> moves = merging_moves(graph, chord);
+double collapse_gain(const PolygonGraph& graph, const Strip& strip) {
+  if (strip.starts_outside || strip.ends_outside) return kNever;
+  const std::optional<Moves> moves = merging_moves(graph, strip);
   if (!moves) return kNever;
   std::vector<Index> ends;
-  for (const Index rung : chord.rungs) {
+  for (const Index rung : strip.rungs) {
     ends.push_back(rung);
     ends.push_back(DartGraph::opposite(rung));
   }
@@ -196,10 +196,10 @@ double collapse_gain(const PolygonGraph& graph, const Chord& chord) {
                        std::numeric_limits<double>::infinity());
 }
 
-std::size_t collapse_strip(PolygonGraph& graph, const Chord& chord) {
+std::size_t collapse_strip(PolygonGraph& graph, const Strip& strip) {
   const DartGraph& g = graph.graph();
   std::size_t done = 0;
-  for (const Index rung : chord.rungs) {
+  for (const Index rung : strip.rungs) {
     Index dart = rung;
     const NodeRank a = graph.rank(g.from(dart));
     const NodeRank b = graph.rank(g.to(dart));
@@ -224,10 +224,10 @@ std::size_t collapse_strip(PolygonGraph& graph, const Chord& chord) {
   return done;
 }
 
-bool claim_strip(const PolygonGraph& graph, const Chord& chord, bool all, ClaimedNodes& claimed) {
+bool claim_strip(const PolygonGraph& graph, const Strip& strip, bool all, ClaimedNodes& claimed) {
   const DartGraph& g = graph.graph();
   std::vector<Index> cells;
-  for (const Index rung : chord.rungs) {
+  for (const Index rung : strip.rungs) {
     // Where nothing has touched the ends, the rung and the cells at it are what they were.
     if (claimed.has(g.from(rung)) || claimed.has(g.to(rung))) return false;
     const std::vector<Index> sides = {rung, DartGraph::opposite(rung)};
