@@ -59,9 +59,9 @@ LogFormat wanted_log_format(int argc, char** argv);
 int run_guarded(const std::string& program, LogFormat errors, const std::function<int()>& body);
 
 /// Parses the command line. Where it is `--generate man`, or a shell instead of "man", prints
-/// manual page or completion script of the program, for packages. \return the exit code where the
-/// program has answered (help, version) \throw UsageError where the command line is wrong, with
-/// what was probably meant
+/// manual page or completion script of the program, for packages.
+/// \return the exit code where the program has answered (help, version)
+/// \throw UsageError where the command line is wrong, with what was probably meant
 std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv);
 
 /// Runs `work` with the wanted number of threads. \param threads  0: all processors

@@ -27,9 +27,9 @@ OwnCrossings find_own_crossings(const TriMesh& mesh);
 /// Tells how many of the pairs of faces of the candidate only touch: "shape.touching_pairs". Where
 /// others cross, tells whether faces of the reference do, too: reports
 /// "shape.reference_crossing_pairs", and warns where there are any, or where some touch. Where none
-/// of the candidate's cross the reference is not looked at. \param positions, triangles  of the
-/// candidate, relative to the reference's origin \param pairs  faces of the candidate that meet in
-/// more than they share
+/// of the candidate's cross the reference is not looked at.
+/// \param positions, triangles  of the candidate, relative to the reference's origin
+/// \param pairs  faces of the candidate that meet in more than they share
 void report_own_crossings(const TriMesh& reference, const std::vector<Vec3>& positions,
                           const FaceTriangles& triangles,
                           const std::vector<std::array<Index, 2>>& pairs, Report& report);

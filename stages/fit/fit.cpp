@@ -322,7 +322,7 @@ FitResult fit_vertices(const TriMesh& mesh, const PrincipalField* field, const Q
       !mendable_crossings(result.quads.mesh, result.quads.mesh.positions).empty()) {
     divided = fitting::divide_crossing_faces(result.quads.mesh);
     refilled = fit.refill(mesh, result.quads);
-    require_same_topology(mesh, analyse(result.quads.mesh), "the fitted mesh");
+    require_same_topology(quads.mesh, analyse(result.quads.mesh), "the fitted mesh");
   }
   begin_faces_at_fans(result.quads.mesh);
   result.quads.mesh.attributes = carry_attributes(mesh, result.quads.mesh, result.quads.provenance);

@@ -27,9 +27,10 @@ namespace strake::import {
 ///
 /// Where more than a tenth of the edges of a component went, or any where a tenth of all did,
 /// frayed pieces of it go as well: more than a corner in 20 edges and in 10 % of the diagonal, amid
-/// edges that are bent by a degree in the mean. \param mesh       corners are found anew \param
-/// roughness  [3F] of feature edges, as `find_features` has it, radians \return edges whose flag
-/// was taken
+/// edges that are bent by a degree in the mean.
+/// \param mesh       corners are found anew
+/// \param roughness  [3F] of feature edges, as `find_features` has it, radians
+/// \return edges whose flag was taken
 Index drop_noise(TriMesh& mesh, const std::vector<float>& roughness);
 
 /// Takes the flags off connected pieces with a total length below `length`, model units.

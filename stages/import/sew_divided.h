@@ -13,8 +13,10 @@ namespace strake::import {
 /// places, with a gap of at most a third of their length, and as `sew_gaps` joins edges otherwise.
 /// Of three or more in the same places two are joined that are nearer to each other by far, or all
 /// where they coincide. Nothing is joined that would leave the surface one side only. Nothing is
-/// put into an edge that does not join it to something. \param border  half-edges of edges with one
-/// face, ascending \return those that are left, ascending Cost that of `find_border_contacts`.
+/// put into an edge that does not join it to something.
+/// Cost that of `find_border_contacts`.
+/// \param border  half-edges of edges with one face, ascending
+/// \return those that are left, ascending
 std::vector<Index> sew_divided_borders(Soup& soup, std::vector<Index> border, double diagonal,
                                        Repairs& repairs);
 

@@ -32,7 +32,8 @@ struct MeshResult {
 ///
 /// Paper: [MK04] section 5. Differs: an arrangement on the surface, decided combinatorially,
 /// instead of angles in space; so every cell closes and the topology of the input is kept by
-/// construction. \throw AlgorithmError where the result fails its own check
+/// construction.
+/// \throw AlgorithmError where the result fails its own check
 MeshResult mesh_lines(const TriMesh& mesh, const LineSet& lines, const MeshOptions& options,
                       Observer& observer);
 

@@ -479,7 +479,7 @@ RefineResult refine_cells(const TriMesh& mesh, const QuadMesh& quads, const Refi
     rounds = refine_to_count(mesh, refinement, options, observer);
   }
   result.quads = refinement.quads();
-  require_same_topology(mesh, analyse(result.quads.mesh), "the mesh of divided cells");
+  require_same_topology(quads.mesh, analyse(result.quads.mesh), "the mesh of divided cells");
   begin_faces_at_fans(result.quads.mesh);
   result.quads.mesh.attributes = carry_attributes(mesh, result.quads.mesh, result.quads.provenance);
   result.report.set("refine.rounds", rounds);

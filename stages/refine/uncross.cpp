@@ -63,7 +63,7 @@ UncrossResult uncross_faces(const TriMesh& mesh, const QuadMesh& quads, Observer
   }
   if (after < before) {
     PolyMesh& made = result.quads.mesh;
-    require_same_topology(mesh, analyse(made), "the result with faces of the input");
+    require_same_topology(quads.mesh, analyse(made), "the result with faces of the input");
     begin_faces_at_fans(made);
     made.attributes = carry_attributes(mesh, made, result.quads.provenance);
   }

@@ -30,9 +30,9 @@ inline bool never_give_up(const Attempt& /*best*/) { return false; }
 /// \param faces     of its result: the more, the fewer attempts
 /// \param patience  attempts that may leave more than half of the faces that cross
 /// \param again     makes and keeps a result like a session's, with closer lines around places
-/// \param give_up   asked once, after two attempts that leave more than half of the faces that
-/// cross \param keep      keeps one again \return the attempt that meets its goal with the fewest
-/// faces that cross; it is the one kept
+/// \param give_up   asked once, after two attempts that leave more than half of the faces that cross
+/// \param keep      keeps one again
+/// \return the attempt that meets its goal with the fewest faces that cross; it is the one kept
 Attempt part_faces(const Attempt& first, Index faces, int patience, const Again& again,
                    const GiveUp& give_up, const std::function<void(Attempt&)>& keep);
 

@@ -19,13 +19,16 @@ namespace strake {
 /// takes the place of "quads" and "fitted" then, "uncrossed" goes, and the user is told. Such a
 /// result is quad-dominant by area, and follows edges of the surface rather than lines.
 /// \pre what `result_port` names was made from lines for that count
-/// \param crossing  of "mesh", like that of the others \return whether it was decimated
+/// \param crossing  of "mesh", like that of the others
+/// \return whether it was decimated
 bool decimate_if_too_coarse(Session& session, const GoalStages& stages, Counted counted,
                             std::int64_t wanted, CrossingPlaces& crossing);
 
 /// Takes the input's own faces where those of a decimated result cross, and where that is not
 /// enough decimates to counts nearby, whose collapses take other ways; the result with the fewest
-/// stays. \pre `decimate_if_too_coarse` decimated it to that count \param crossing  of "mesh"
+/// stays.
+/// \pre `decimate_if_too_coarse` decimated it to that count
+/// \param crossing  of "mesh"
 void part_decimated(Session& session, const GoalStages& stages, const LineAim& aim,
                     CrossingPlaces& crossing);
 

@@ -8,8 +8,7 @@ namespace strake {
 
 /// Reads the vertex property "density" of a PLY file, ascii or binary.
 /// \return one positive number per vertex, in the order of the file
-/// \throw InputError naming the file, and the vertex where one is at fault, where it is no PLY
-/// file,
+/// \throw InputError naming the file, and the vertex where one is at fault, where it is no PLY file,
 ///        has no such property, ends too early, or holds a density that is not a positive number
 std::vector<double> read_density(const std::filesystem::path& path);
 

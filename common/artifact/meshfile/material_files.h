@@ -10,7 +10,9 @@ namespace strake {
 /// name the same files.
 ///
 /// A statement may name several files, with blanks between; it names one with blanks in its name
-/// where there is such a file. \param statements  of the mesh file `from` \param to  the other one
+/// where there is such a file.
+/// \param statements  of the mesh file `from`
+/// \param to  the other one
 std::vector<std::string> material_files_seen_from(const std::vector<std::string>& statements,
                                                   const std::filesystem::path& from,
                                                   const std::filesystem::path& to);

@@ -39,8 +39,8 @@ struct ReadReport {
 /// `vt`, `o`, `g`, `usemtl`) and PLY (properties red, green, blue, alpha and s, t or u, v of
 /// vertices; texcoord and integers of faces with one of the names in docs/import.md); where some
 /// elements lack what others have, they are white, at (0, 0), or have the label "". Faces that
-/// cannot be used are skipped and counted; a truncated file yields what is complete. \throw
-/// InputError naming the file where it cannot be read, is of no known format, or holds no
+/// cannot be used are skipped and counted; a truncated file yields what is complete.
+/// \throw InputError naming the file where it cannot be read, is of no known format, or holds no
 ///        usable face
 /// Cost O(bytes); memory is bounded by the size of the file, whatever counts it announces.
 PolyMesh read_mesh(const std::filesystem::path& path, ReadReport& report);
