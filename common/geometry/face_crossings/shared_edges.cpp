@@ -39,7 +39,8 @@ std::vector<std::array<Vec3, 2>> edges_in_one_place(const TriMesh& mesh) {
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
     const Index a = mesh.from(h);
     const Index b = mesh.to(h);
-    if (has_copies[first[a]] == 0 || has_copies[first[b]] == 0) continue;
+    // One of the ends may be one vertex.
+    if (has_copies[first[a]] == 0 && has_copies[first[b]] == 0) continue;
     edges.push_back(first[a] < first[b] ? Edge{first[a], first[b], a, b}
                                         : Edge{first[b], first[a], b, a});
   }
