@@ -209,7 +209,24 @@ Index add_around(TriMesh& mesh, const std::vector<std::vector<Index>>& facets) {
   return added;
 }
 
-void find_creases(TriMesh& mesh, double angle_deg, FeatureCounts& counts) {
+double length_of_features(const TriMesh& mesh) {
+  double length = 0;
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    if (mesh.is_feature[h] != 0 && h < mesh.twin[h]) {
+      length += (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).norm();
+    }
+  }
+  return length;
+}
+
+void leave_noise_out(TriMesh& mesh, const std::vector<float>& roughness, FeatureCounts& counts) {
+  const double before = length_of_features(mesh);
+  counts.dropped_edges = drop_noise(mesh, roughness);
+  counts.dropped_length = before - length_of_features(mesh);
+  counts.dropped_share = before > 0 ? counts.dropped_length / before : 0;
+}
+
+void find_creases(TriMesh& mesh, double angle_deg, bool all, FeatureCounts& counts) {
   constexpr double kShallow = 0.5;
   constexpr double kWeak = 0.6;
   constexpr double kSmoothGround = 0.05;
@@ -242,7 +259,7 @@ void find_creases(TriMesh& mesh, double angle_deg, FeatureCounts& counts) {
   std::erase_if(shallow, [&](Index h) { return !stands_alone(mesh, normals, h, bend[h]); });
   counts.shallow_edges = add_long_enough(mesh, shallow);
   counts.bridging_edges = Bridges(mesh, excess, kWeak * angle).run();
-  counts.dropped_edges = drop_noise(mesh, rough_at);
+  if (!all) leave_noise_out(mesh, rough_at, counts);
   counts.shallow_edges += add_links(mesh, normals, shallow);  // noise holds none
   counts.shallow_edges += add_around(mesh, corners);
 }
@@ -312,7 +329,7 @@ FeatureCounts find_features(TriMesh& mesh, const FeatureRules& rules, const Poly
                             const EdgeList* listed) {
   FeatureCounts counts;
   mesh.is_feature.assign(mesh.halfedge_count(), 0);
-  if (rules.angle_deg < 180) find_creases(mesh, rules.angle_deg, counts);
+  if (rules.angle_deg < 180) find_creases(mesh, rules.angle_deg, rules.all_creases, counts);
   if (std::isfinite(rules.height)) find_ridges(mesh, rules.height, counts);
   if (std::isfinite(rules.facet_height)) find_facets(mesh, rules.facet_height, counts);
   flag_attribute_borders(mesh, rules, counts);

@@ -10,7 +10,8 @@ namespace strake::import {
 
 /// Which edges are features.
 struct FeatureRules {
-  double angle_deg = 40;  ///< in [0, 180]; bent by more are creases; 180: no creases
+  double angle_deg = 40;     ///< in [0, 180]; bent by more are creases; 180: no creases
+  bool all_creases = false;  ///< those that look like noise, too
   /// Model units; edges that stand out by more are ridges
   double height = std::numeric_limits<double>::infinity();
   /// The same of edges between facets
@@ -23,7 +24,9 @@ struct FeatureCounts {
   Index strong_edges = 0;      ///< bent by more than the angle
   Index shallow_edges = 0;     ///< bent by more than half the angle, standing alone
   Index bridging_edges = 0;    ///< bent less, added between strong ones
-  Index dropped_edges = 0;     ///< of what was noise
+  Index dropped_edges = 0;     ///< of creases that look like noise
+  double dropped_length = 0;   ///< of these, model units
+  double dropped_share = 0;    ///< and as a share of all creases
   Index ridge_edges = 0;       ///< bent less than creases, but standing out by more than the height
   Index facet_edges = 0;       ///< of flat polygons, as `find_facet_edges` states
   Index label_edges = 0;       ///< between faces of different labels
@@ -49,8 +52,9 @@ struct FeatureCounts {
 /// by more than 0.6 of `angle_deg` (and the roughness), but only as far as another crease or the
 /// boundary.
 ///
-/// What is noise then is dropped, as `drop_noise` states. The normal of a sliver, which rounding of
-/// the coordinates may have turned, is taken from the neighbour across a long edge.
+/// What is noise then is dropped, as `drop_noise` states, unless all creases are wanted. The normal
+/// of a sliver, which rounding of the coordinates may have turned, is taken from the neighbour
+/// across a long edge.
 ///
 /// A ridge is an edge that stands out by more than `height` over the straight way across its two
 /// faces, from corner to corner in their section: a mesh that is coarser than the distances that

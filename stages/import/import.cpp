@@ -290,8 +290,23 @@ FeatureRules feature_rules(const ImportOptions& options, double diagonal) {
   const auto height = [&](const std::optional<Length>& length) {
     return length ? length->resolve(diagonal) : std::numeric_limits<double>::infinity();
   };
-  return {options.feature_angle_deg, height(options.feature_height), height(options.facet_height),
-          wants("labels"), wants("seams")};
+  return {.angle_deg = options.feature_angle_deg,
+          .all_creases = options.all_creases,
+          .height = height(options.feature_height),
+          .facet_height = height(options.facet_height),
+          .labels = wants("labels"),
+          .seams = wants("seams")};
+}
+
+/// Edges of walls that stand among measured points are as jagged as noise is.
+void warn_of_dropped_creases(double diagonal, const import::FeatureCounts& counts, Report& report) {
+  constexpr double kMostLength = 30;  ///< in diagonals; folds and tufts of a scan have less
+  constexpr double kMost = 0.8;
+  if (counts.dropped_share < kMost || counts.dropped_length < kMostLength * diagonal) return;
+  report.warn(fmt::format(
+      "{:.0f} % of the creases look like noise, {} edges that are jagged or short on rough ground, "
+      "and are no features; if they are meant, --all-creases keeps them",
+      100 * counts.dropped_share, counts.dropped_edges));
 }
 
 /// Seams of an atlas of many small charts would leave no room for anything but features.
@@ -385,6 +400,7 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
   const import::FeatureCounts features = import::find_features(
       result.mesh, feature_rules(options, result.mesh.diagonal), soup, listed);
   if (options.no_attributes) result.mesh.attributes = {};
+  warn_of_dropped_creases(result.mesh.diagonal, features, result.report);
   warn_of_many_seams(result.mesh, features, result.report);
   if (!options.no_attributes) warn_of_open_labels(features, result.report);
   report_noise(result.mesh, result.report);

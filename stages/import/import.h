@@ -20,6 +20,7 @@ struct ImportOptions {
   std::optional<Length> feature_height = std::nullopt;
   /// Height above which edges between flat polygons are feature edges, too; default: none
   std::optional<Length> facet_height = std::nullopt;
+  bool all_creases = false;                  ///< also those that look like noise
   std::string attribute_features = "seams";  ///< borders that are features: labels, seams, none
   bool no_attributes = false;                ///< leave out colours, texture coordinates and labels
   /// Largest share of the area that repairs may take away. Not counted is what is there twice.

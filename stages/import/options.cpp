@@ -27,6 +27,12 @@ OptionList ImportOptions::declare() {
                "looks whether that is better. 100% keeps none.",
        .min = 1e-6,
        .max = 1},
+      {.name = "all-creases",
+       .target = &all_creases,
+       .unit = "",
+       .help =
+           "Keep also creases that look like noise: jagged or short ones on rough ground, as the "
+           "walls of buildings among measured points have them."},
       {.name = "attribute-features",
        .target = &attribute_features,
        .unit = "",

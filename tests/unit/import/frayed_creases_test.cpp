@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "common/core/poly_mesh.h"
@@ -27,6 +28,14 @@ PolyMesh round_terraces(int n) {
 PolyMesh grid_steps(int n, int count) {
   return shapes::grid(n, n,
                       [&](double, double y) { return 2.0 / n * std::floor(y * (count - 1e-9)); });
+}
+
+/// Ditches on rough ground, whose walls go from point to point askew over a grid.
+PolyMesh ditches(int n, int count) {
+  return shapes::grid(n, n, [&](double x, double y) {
+    const double rough = 0.2 / n * std::sin(12.9898 * n * x + 78.233 * n * y);
+    return rough + (std::fmod(count * (x + 0.6 * y), 2) < 1 ? 0 : 10.0 / n);
+  });
 }
 
 /// Half of a round bar.
@@ -79,6 +88,25 @@ TEST(FrayedCreases, GoButNotThoseAlongTheFacesNorOfOtherParts) {
   EXPECT_GT(shapes::count(result.report, "features.strong_edges") - along, 500);
   EXPECT_LT(askew, 200);
   EXPECT_LT(shapes::count(result.report, "features.corners"), 50);
+}
+
+TEST(JaggedCreases, StayWhereAllAreWantedAndAreToldOfWhereNot) {
+  const PolyMesh ground = ditches(120, 20);
+  const auto tells = [](const ImportResult& result) {
+    return std::ranges::any_of(result.report.warnings(), [](const std::string& warning) {
+      return warning.find("--all-creases") != std::string::npos;
+    });
+  };
+  const ImportResult fewer = imported(ground);
+  EXPECT_GT(shapes::count(fewer.report, "features.dropped_edges"), 500);
+  EXPECT_TRUE(tells(fewer));
+  const ImportResult all = imported(ground, {.all_creases = true});
+  EXPECT_EQ(shapes::count(all.report, "features.dropped_edges"), 0);
+  EXPECT_EQ(shapes::count(all.report, "features.edges"),
+            shapes::count(all.report, "features.strong_edges") +
+                shapes::count(all.report, "features.shallow_edges") +
+                shapes::count(all.report, "features.bridging_edges"));
+  EXPECT_FALSE(tells(all));
 }
 
 }  // namespace
