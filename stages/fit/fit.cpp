@@ -56,7 +56,8 @@ constexpr double kShortestMove = 1e-8;
 /// vertex.
 constexpr double kLeastShare = 1e-12;
 constexpr std::array<double, 3> kSteps = {1, 0.5, 0.25};  ///< shares of the moves that are tried
-constexpr int kMostRetreats = 10;  ///< times that vertices are put back for one step
+constexpr double kLeastOfMove = 0.3;  ///< share of it that is made where faces would cross
+constexpr int kMostRetreats = 14;     ///< times that vertices are put back for one step
 /// Times the largest distance up to which faces may be parted.
 constexpr double kPartedFarther = 1.5;
 
@@ -110,7 +111,7 @@ class Fit {
         places_.move(v, step * moves[v]);
       }
       lines_.straighten_joints(places_);
-      if (!retreat(start)) continue;
+      if (!retreat(start, moves, step)) continue;
       measure();
       if (!(cost(squares) < cost_before)) continue;
       places_.update_feet();
@@ -192,13 +193,35 @@ class Fit {
     return area;
   }
 
-  /// Puts vertices back where faces have got worse. \return whether none has at the end
-  bool retreat(const std::vector<VertexPlaces::State>& start) {
+  /// Puts vertices back where faces have got worse.
+  /// \param moves  [V] of which the share `step` was made from `start`
+  /// \return whether no face has got worse at the end
+  bool retreat(const std::vector<VertexPlaces::State>& start, const std::vector<Vec3>& moves,
+               double step) {
+    std::vector<double> shares(start.size(), step);
     for (int i = 0; i < kMostRetreats; ++i) {
       if (put_back(guard_.spoilt(places_), start)) continue;
-      if (!put_back(guard_.newly_crossing(places_), start)) return true;
+      if (!draw_back(guard_.newly_crossing(places_), start, moves, shares)) return true;
     }
     return false;
+  }
+
+  /// Halves the moves of vertices, and takes them back at last, so that faces come near to others
+  /// that they would cross.
+  /// \param shares  [V] of the moves, that are made
+  /// \return whether any was
+  bool draw_back(const std::vector<std::uint8_t>& which,
+                 const std::vector<VertexPlaces::State>& start, const std::vector<Vec3>& moves,
+                 std::vector<double>& shares) {
+    bool any = false;
+    for (Index v = 0; v < system_.size(); ++v) {
+      if (which[v] == 0 || places_.positions()[v] == start[v].position) continue;
+      shares[v] = shares[v] > kLeastOfMove ? shares[v] / 2 : 0;
+      places_.restore(v, start[v]);
+      if (shares[v] > 0) places_.move(v, shares[v] * moves[v]);
+      any = true;
+    }
+    return any;
   }
 
   bool put_back(const std::vector<std::uint8_t>& which,

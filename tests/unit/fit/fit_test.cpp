@@ -90,6 +90,25 @@ TEST(Fit, ShiftsAnInscribedSphereByItsMeanDistance) {
   }
 }
 
+/// Two such spheres at a distance, with coarse ones on them that are turned differently.
+double ratio_of_two(double gap) {
+  const auto shifted = [&](PolyMesh mesh) {
+    for (Vec3& p : mesh.positions) p.x() += 2 + gap;
+    return mesh;
+  };
+  const TriMesh mesh =
+      support::plain_tri_mesh(support::together(icosphere(5), shifted(icosphere(5))));
+  const PolyMesh coarse = support::transformed(icosphere(2), support::oblique_rotation());
+  return ratio(mesh, placed_on(mesh, support::together(coarse, shifted(coarse))));
+}
+
+// Vertices near the other sphere cannot move all the way, but those around them can, and they
+// themselves as far as there is room.
+TEST(Fit, MovesVerticesAsNearToOtherSheetsAsItCan) {
+  const double apart = ratio_of_two(1);
+  EXPECT_LT(ratio_of_two(0.002), 1.1 * apart) << apart;
+}
+
 TEST(Fit, WorksAtAnyPlaceAndScale) {
   const SphereCase sphere;
   const QuadMesh plain = fitted(sphere.mesh, sphere.quads);
