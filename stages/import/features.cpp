@@ -212,7 +212,7 @@ Index add_around(TriMesh& mesh, const std::vector<std::vector<Index>>& facets) {
 double length_of_features(const TriMesh& mesh) {
   double length = 0;
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
-    if (mesh.is_feature[h] != 0 && h < mesh.twin[h]) {
+    if (h < mesh.twin[h] && mesh.is_feature[h] != 0) {
       length += (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).norm();
     }
   }
