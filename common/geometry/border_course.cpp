@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "common/geometry/angles.h"
+#include "common/geometry/frames.h"
 #include "common/geometry/topology/vertex_ring.h"
 
 namespace strake {
@@ -147,11 +148,8 @@ class BorderLoop {
   void find_turns() {
     for (Index i = 0; i < count_; ++i) {
       Vec3 normal = Vec3::Zero();
-      for_each_outgoing(mesh_, vertex(i), [&](Index h) {
-        const auto& [a, b, c] = mesh_.faces[TriMesh::face_of(h)];
-        const Vec3& p = mesh_.positions[a];
-        normal += (mesh_.positions[b] - p).cross(mesh_.positions[c] - p);
-      });
+      for_each_outgoing(mesh_, vertex(i),
+                        [&](Index h) { normal += face_cross(mesh_, TriMesh::face_of(h)); });
       const Vec3 before = at(i) - at(i - 1);
       const Vec3 after = at(i + 1) - at(i);
       const double turn = angle_between(before, after);

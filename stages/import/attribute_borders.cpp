@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/geometry/frames.h"
+
 namespace strake::import {
 
 bool is_label_border(const TriMesh& mesh, Index halfedge) {
@@ -31,9 +33,7 @@ MirrorLines::MirrorLines(const TriMesh& mesh) : mesh_(mesh) {
   double sum = 0;
   double total = 0;
   for (Index f = 0; f < mesh.face_count(); ++f) {
-    const auto& [a, b, c] = mesh.faces[f];
-    const auto& p = mesh.positions;
-    const double area = (p[b] - p[a]).cross(p[c] - p[a]).norm() / 2;
+    const double area = face_area(mesh, f);
     const double texture = texture_area(f);
     sum += std::abs(texture);
     total += area;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/geometry/frames.h"
 #include "common/geometry/mesh_measures.h"
 
 namespace strake::import {
@@ -53,9 +54,7 @@ std::vector<Vec3> robust_face_normals(const TriMesh& mesh) {
   std::vector<Vec3> normals(mesh.faces.size(), Vec3::Zero());
   bool all_trusted = true;
   for (Index f = 0; f < mesh.face_count(); ++f) {
-    const auto& [a, b, c] = mesh.faces[f];
-    const Vec3 area =
-        (mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a]);
+    const Vec3 area = face_cross(mesh, f);
     const double norm = area.norm();
     const double longest = longest_edge(mesh, f);
     if (norm > std::min(lowest, kSliver * longest) * longest && norm > 0) {

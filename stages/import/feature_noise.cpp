@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/geometry/angles.h"
+#include "common/geometry/frames.h"
 #include "common/geometry/topology/topology.h"
 #include "common/geometry/topology/vertex_ring.h"
 #include "stages/import/feature_graph.h"
@@ -241,13 +242,8 @@ struct BendSum {
   void add(const TriMesh& mesh, Index h) {
     const Index twin = mesh.twin[h];
     if (twin == kNone) return;
-    const auto normal = [&](Index f) {
-      const auto& [a, b, c] = mesh.faces[f];
-      return Vec3(
-          (mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a]));
-    };
-    const Vec3 left = normal(TriMesh::face_of(h));
-    const Vec3 right = normal(TriMesh::face_of(twin));
+    const Vec3 left = face_cross(mesh, TriMesh::face_of(h));
+    const Vec3 right = face_cross(mesh, TriMesh::face_of(twin));
     const Vec3 along = edge_vector(mesh, h);
     const double way = along.norm();
     if (!(way > 0)) return;

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <vector>
 
+#include "common/geometry/frames.h"
+
 namespace strake::import {
 namespace {
 
@@ -30,11 +32,7 @@ constexpr double kShortest = 1e-9;
 /// Bends of edges, positive where the surface is convex.
 struct Bends {
   explicit Bends(const TriMesh& mesh) : mesh_(mesh), area_normals_(mesh.faces.size()) {
-    for (std::size_t f = 0; f < area_normals_.size(); ++f) {
-      const auto& [a, b, c] = mesh.faces[f];
-      area_normals_[f] =
-          (mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a]);
-    }
+    for (Index f = 0; f < mesh.face_count(); ++f) area_normals_[f] = face_cross(mesh, f);
   }
 
   /// Calls use(half-edge, bend in degrees, length) for each inner edge, in order. Bends, which take
@@ -201,10 +199,9 @@ std::vector<Kind> kinds_of_vertices(const TriMesh& mesh) {
 /// [V] unit normals of the vertices, by the areas of their faces.
 std::vector<Vec3> vertex_normals(const TriMesh& mesh) {
   std::vector<Vec3> normals(mesh.positions.size(), Vec3::Zero());
-  for (const auto& [a, b, c] : mesh.faces) {
-    const Vec3 area =
-        (mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a]);
-    for (const Index v : {a, b, c}) normals[v] += area;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const Vec3 area = face_cross(mesh, f);
+    for (const Index v : mesh.faces[f]) normals[v] += area;
   }
   for (Vec3& n : normals) n.normalize();
   return normals;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "common/geometry/frames.h"
+#include "common/geometry/mesh_measures.h"
 #include "common/geometry/topology/vertex_ring.h"
 #include "stages/import/feature_graph.h"
 
@@ -16,17 +18,10 @@ constexpr double kMostAround = 0.5;  ///< share of it
 /// cone misses so much. Most vertices need no angles for that.
 const double kLongestSum = 1 - kLeastMissing / (2 * M_PI);
 
-double angle_at(const TriMesh& mesh, Index h) {
-  const Vec3& p = mesh.positions[mesh.from(h)];
-  const Vec3 a = mesh.positions[mesh.to(h)] - p;
-  const Vec3 b = mesh.positions[mesh.from(TriMesh::prev(h))] - p;
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
 /// Full turn less the angles around an inner vertex.
 double missing_angle(const TriMesh& mesh, Index vertex) {
   double left = 2 * M_PI;
-  for_each_outgoing(mesh, vertex, [&](Index h) { left -= angle_at(mesh, h); });
+  for_each_outgoing(mesh, vertex, [&](Index h) { left -= corner_angle(mesh, h); });
   return left;
 }
 
@@ -35,11 +30,10 @@ double missing_angle(const TriMesh& mesh, Index vertex) {
 Index find_sharp_points(TriMesh& mesh) {
   std::vector<Vec3> sum(mesh.positions.size(), Vec3::Zero());
   std::vector<double> length(mesh.positions.size(), 0.0);
-  for (const auto& [a, b, c] : mesh.faces) {
-    const Vec3 normal =
-        (mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a]);
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const Vec3 normal = face_cross(mesh, f);
     const double norm = normal.norm();
-    for (const Index v : {a, b, c}) {
+    for (const Index v : mesh.faces[f]) {
       sum[v] += normal;
       length[v] += norm;
     }

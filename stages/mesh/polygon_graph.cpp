@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "common/geometry/face_chart.h"
+#include "common/geometry/frames.h"
 
 namespace strake {
 namespace {
@@ -333,9 +334,7 @@ void PolygonGraph::dissolve(Index dart) {
 }
 
 Vec3 PolygonGraph::surface_normal(Index n) const {
-  const auto& [a, b, c] = mesh_->faces[nodes_[n].face];
-  const Vec3& p = mesh_->positions[a];
-  return (mesh_->positions[b] - p).cross(mesh_->positions[c] - p).stableNormalized();
+  return face_cross(*mesh_, nodes_[n].face).stableNormalized();
 }
 
 void PolygonGraph::hold(Index dart) {

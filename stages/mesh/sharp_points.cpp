@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/geometry/frames.h"
 #include "common/geometry/nearest_on_surface.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/surface_distance/surface_distance.h"
@@ -48,10 +49,7 @@ std::vector<Index> sharp_points(const TriMesh& mesh) {
 /// Sum of the normals around a vertex.
 Vec3 axis_at(const TriMesh& mesh, Index vertex) {
   Vec3 axis = Vec3::Zero();
-  for_each_outgoing(mesh, vertex, [&](Index h) {
-    const auto& [a, b, c] = mesh.faces[TriMesh::face_of(h)];
-    axis += (mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a]);
-  });
+  for_each_outgoing(mesh, vertex, [&](Index h) { axis += face_cross(mesh, TriMesh::face_of(h)); });
   return axis.normalized();
 }
 

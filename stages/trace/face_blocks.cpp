@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "common/geometry/frames.h"
 #include "common/geometry/segment.h"
 #include "stages/trace/face_rows.h"
 
@@ -31,12 +32,6 @@ double largest_coordinate(const TriMesh& mesh) {
   double largest = 0;
   for (const Vec3& p : mesh.positions) largest = std::max(largest, p.cwiseAbs().maxCoeff());
   return largest;
-}
-
-/// Normal of a face, as long as twice its area.
-Vec3 area_normal(const TriMesh& mesh, Index face) {
-  const auto& [a, b, c] = mesh.faces[face];
-  return (mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a]);
 }
 
 /// Slabs of a face hold so many line distances, and are not more than that.
@@ -107,12 +102,12 @@ void FaceBlocks::gather(Index first, const Spacing& spacing) {
   const std::size_t begin = faces_.size();
   const double size = kBlockSize * least_spacing(mesh_, spacing, first);
   const Vec3 middle = centroid(mesh_, first);
-  const Vec3 normal = area_normal(mesh_, first);
+  const Vec3 normal = face_cross(mesh_, first);
   const auto is_near = [&](Index v) {
     return (mesh_.positions[v] - middle).squaredNorm() <= size * size;
   };
   const auto is_alike = [&](Index f) {
-    const Vec3 other = area_normal(mesh_, f);
+    const Vec3 other = face_cross(mesh_, f);
     return !(normal.dot(other) < kLeastAgreement * normal.norm() * other.norm());
   };
   const auto belongs = [&](Index f) {
