@@ -9,8 +9,6 @@
 namespace strake {
 namespace {
 
-double cross2(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 /// The third corner of a face whose other two corners lie at `a` and `b`, left of a -> b.
 Vec2 third_corner(const Vec3& pa, const Vec3& pb, const Vec3& pc, const Vec2& a, const Vec2& b) {
   const Vec3 edge = pb - pa;

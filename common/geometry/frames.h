@@ -77,6 +77,10 @@ inline Eigen2 eigen_symmetric2(double xx, double xy, double yy) {
   return high_is_larger ? Eigen2{high, low, d} : Eigen2{low, high, Vec2(-d.y(), d.x())};
 }
 
+/// The product of lengths and the sine of the angle from a to b.
+inline double cross2(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// Normal of a face, as long as twice its area.
 inline Vec3 face_cross(const TriMesh& mesh, Index face) {
   const auto& f = mesh.faces[face];
   const Vec3& a = mesh.positions[f[0]];

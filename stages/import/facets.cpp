@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/geometry/angles.h"
+#include "common/geometry/mesh_measures.h"
 
 namespace strake::import {
 namespace {
@@ -31,7 +32,7 @@ std::vector<Index> find_facet_edges(const TriMesh& mesh, const std::vector<float
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
     const Index twin = mesh.twin[h];
     if (twin == kNone || h > twin || mesh.is_feature[h] != 0 || bend[h] <= kLeast) continue;
-    const double way = (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).norm();
+    const double way = edge_length(mesh, h);
     length += way;
     if (in_polygon[TriMesh::face_of(h)] == 0 || in_polygon[TriMesh::face_of(twin)] == 0) continue;
     between_facets += way;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/geometry/angles.h"
+#include "common/geometry/mesh_measures.h"
 #include "common/geometry/topology/vertex_ring.h"
 #include "stages/import/attribute_borders.h"
 #include "stages/import/corner_facets.h"
@@ -213,7 +214,7 @@ double length_of_features(const TriMesh& mesh) {
   double length = 0;
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
     if (h < mesh.twin[h] && mesh.is_feature[h] != 0) {
-      length += (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).norm();
+      length += edge_length(mesh, h);
     }
   }
   return length;
@@ -296,7 +297,7 @@ void find_facets(TriMesh& mesh, double height, FeatureCounts& counts) {
   double length = 0;
   double high = 0;
   for (const Index h : edges) {
-    const double way = (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).norm();
+    const double way = edge_length(mesh, h);
     length += way;
     if (ridge_height(mesh, h) > height) high += way;
   }

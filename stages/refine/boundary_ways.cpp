@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "common/geometry/mesh_measures.h"
+
 namespace strake {
 namespace {
 
@@ -19,7 +21,7 @@ BoundaryWays::BoundaryWays(const TriMesh& mesh)
     for (Index h = start; loop_[h] == kNone; h = mesh.vertex_out[mesh.to(h)]) {
       loop_[h] = static_cast<Index>(lengths_.size());
       until_[h] = sum;
-      sum += length(h);
+      sum += edge_length(mesh_, h);
     }
     lengths_.push_back(sum);
   }
@@ -63,11 +65,7 @@ SurfaceLines::Place BoundaryWays::place(const SurfacePoint& point) const {
 }
 
 double BoundaryWays::position_on_loop(const SurfaceLines::Place& place) const {
-  return until_[place.halfedge] + place.lambda * length(place.halfedge);
-}
-
-double BoundaryWays::length(Index h) const {
-  return (mesh_.positions[mesh_.to(h)] - mesh_.positions[mesh_.from(h)]).norm();
+  return until_[place.halfedge] + place.lambda * edge_length(mesh_, place.halfedge);
 }
 
 }  // namespace strake

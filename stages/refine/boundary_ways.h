@@ -30,7 +30,6 @@ class BoundaryWays {
   [[nodiscard]] SurfaceLines::Place place(const SurfacePoint& point) const;
   /// The length of the boundary from where its loop begins.
   [[nodiscard]] double position_on_loop(const SurfaceLines::Place& place) const;
-  [[nodiscard]] double length(Index h) const;
 
   const TriMesh& mesh_;
   std::vector<Index> loop_;      ///< [half-edges] kNone: not of the boundary

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "common/core/tri_mesh.h"
+#include "common/geometry/mesh_measures.h"
 
 namespace strake {
 
@@ -20,7 +21,7 @@ inline FaceRows face_rows(const TriMesh& mesh, Index face) {
   FaceRows rows;
   for (int i = 0; i < 3; ++i) {
     const Index h = 3 * face + i;
-    const double length = (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).norm();
+    const double length = edge_length(mesh, h);
     if (length <= rows.longest) continue;
     rows.longest = length;
     rows.base = i;
