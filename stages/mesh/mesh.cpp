@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "common/core/error.h"
@@ -231,9 +232,10 @@ PolygonGraph cut_out_cells(const TriMesh& mesh, const LineSet& lines,
 }
 
 /// The cells between the lines, simplified and divided to faces of few sides.
+/// \param surface  made where there is none yet: not before cells are formed, which takes most memory
 Cells divide_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions& options,
                    const std::vector<Index>& component, const std::vector<Triangles>& triangles,
-                   const BorderCourse& borders, const SurfaceDistance& surface,
+                   const BorderCourse& borders, std::optional<SurfaceDistance>& surface,
                    Observer& observer) {
   Index cuts = 0;
   Cells cells{
@@ -244,9 +246,10 @@ Cells divide_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions&
       simplify(cells.graph, [&](const SurfaceNode& node) { return local_size(mesh, lines, node); },
                {.shortest = kShortestEdge, .corner_distance = options.corner_distance});
   hold_triangles(component, triangles, cells.graph);
+  if (!surface) surface.emplace(mesh.positions, mesh.faces);
   cells.split_features = split_crossing_features(cells.graph);
   observer.report("dividing cells", 0.8);
-  cells.divided = partition(cells.graph, most_sides(options), &surface);
+  cells.divided = partition(cells.graph, most_sides(options), &*surface);
   cells.redrawn_flats = redraw_flats(cells.graph);
   return cells;
 }
@@ -273,14 +276,14 @@ Cells form_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions& o
   const std::vector<Index> component = face_components(mesh);
   triangles.assign(*std::max_element(component.begin(), component.end()) + 1, Triangles::merged);
   const Triangles last = options.pure_quads ? Triangles::kept : Triangles::held;
-  const SurfaceDistance surface(mesh.positions, mesh.faces);
+  std::optional<SurfaceDistance> surface;
   while (true) {
     Cells cells =
         divide_cells(mesh, lines, options, component, triangles, borders, surface, observer);
     // Seen before the long work is done, as far as it can be.
     if (find_starved(mesh, component, cells.graph, last, triangles)) continue;
     observer.report("pairing odd faces", 0.9);
-    regularise_cells(mesh, lines, options, surface, cells);
+    regularise_cells(mesh, lines, options, *surface, cells);
     if (!find_starved(mesh, component, cells.graph, last, triangles)) return cells;
   }
 }
