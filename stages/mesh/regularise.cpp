@@ -19,13 +19,13 @@ namespace {
 constexpr int kMostRounds = 12;
 /// More quads in a row cancel hardly more than these do.
 constexpr std::size_t kMostQuads = 3;
-constexpr double kLeastGain = 0.05;
+constexpr double kLeastQuadGain = 0.05;
 /// Faces that are made have at most this shape penalty, unless there was a worse one in their
 /// place: that of a rhombus with angles of 46 and 134 degrees.
 constexpr double kWorstShape = 0.6;
 
 /// A change that can be made: a patch to be divided, or else a quad to be closed.
-struct Change {
+struct QuadChange {
   double gain;
   Patch patch;
   Division division;
@@ -42,7 +42,7 @@ class Regularising {
     for (int round = 0; round < kMostRounds; ++round) {
       ClaimedNodes claimed(graph_);
       bool any = false;
-      for (const Change& change : changes()) {
+      for (const QuadChange& change : changes()) {
         any = (claim(change, claimed) && apply(change)) || any;
       }
       if (!any) break;
@@ -53,23 +53,24 @@ class Regularising {
 
  private:
   /// Everything worth doing at active nodes, the best first.
-  std::vector<Change> changes() {
+  std::vector<QuadChange> changes() {
     find_excess();
     std::vector<Index> quads;  // a dart of each
     graph_.for_each_cell([&](Index d, const DartLoop& cell) {
       if (cell.size() == 4) quads.push_back(d);
     });
-    std::vector<std::vector<Change>> of_quad(quads.size());
+    std::vector<std::vector<QuadChange>> of_quad(quads.size());
     tbb::parallel_for(std::size_t{0}, quads.size(),
                       [&](std::size_t i) { add_changes(quads[i], of_quad[i]); });
-    std::vector<Change> found;
-    for (std::vector<Change>& some : of_quad) std::ranges::move(some, std::back_inserter(found));
+    std::vector<QuadChange> found;
+    for (std::vector<QuadChange>& some : of_quad)
+      std::ranges::move(some, std::back_inserter(found));
     std::stable_sort(found.begin(), found.end(),
-                     [](const Change& a, const Change& b) { return a.gain > b.gain; });
+                     [](const QuadChange& a, const QuadChange& b) { return a.gain > b.gain; });
     return found;
   }
 
-  void add_changes(Index quad, std::vector<Change>& found) const {
+  void add_changes(Index quad, std::vector<QuadChange>& found) const {
     const DartLoop cell = graph_.cell(quad);
     if (any_corner(cell, [&](Index n) { return active_[n] != 0; })) {
       add_closing(cell[0], found);
@@ -102,7 +103,7 @@ class Regularising {
   }
 
   /// Rows of quads that start with the one in `row`.
-  void add_patches(std::vector<Index>& row, std::vector<Change>& found) const {
+  void add_patches(std::vector<Index>& row, std::vector<QuadChange>& found) const {
     for (const Index out : graph_.cell(row.back())) {
       const Index across = DartGraph::opposite(out);
       if (graph_.is_barrier(out) || graph_.is_hole(across) || graph_.cell(across).size() != 4) {
@@ -136,7 +137,7 @@ class Regularising {
     return is_active && has_too_few;
   }
 
-  void add_patch(const std::vector<Index>& cells, std::vector<Change>& found) const {
+  void add_patch(const std::vector<Index>& cells, std::vector<QuadChange>& found) const {
     std::optional<Patch> patch = join_cells(graph_, cells);
     if (!patch) return;
     const auto penalty = [&](Index dart, Index degree) {
@@ -149,7 +150,8 @@ class Regularising {
     std::optional<Division> division = best_division(graph_, *patch, penalty, worst, surface_);
     if (!division || !(division->degree_gain > 0)) return;
     const double gain = division->shape_gain + division->degree_gain;
-    if (gain > kLeastGain) found.push_back({gain, std::move(*patch), std::move(*division), kNone});
+    if (gain > kLeastQuadGain)
+      found.push_back({gain, std::move(*patch), std::move(*division), kNone});
   }
 
   /// The corner that is across the quad from the origin of `dart`.
@@ -189,7 +191,7 @@ class Regularising {
     return gain;
   }
 
-  void add_closing(Index dart, std::vector<Change>& found) const {
+  void add_closing(Index dart, std::vector<QuadChange>& found) const {
     const DartGraph& g = graph_.graph();
     if (!is_free(dart) && !is_free(across(dart))) return;
     const std::optional<Index> regularity = regularity_gain(dart);
@@ -202,10 +204,10 @@ class Regularising {
     const double gain = price_ * *regularity +
                         penalty_now(corner_positions(graph_, graph_.cell(dart))) +
                         gain_of_moves(graph_, cells, moves, kWorstShape);
-    if (gain > kLeastGain) found.push_back({gain, {}, {}, dart});
+    if (gain > kLeastQuadGain) found.push_back({gain, {}, {}, dart});
   }
 
-  [[nodiscard]] bool claim(const Change& change, ClaimedNodes& claimed) const {
+  [[nodiscard]] bool claim(const QuadChange& change, ClaimedNodes& claimed) const {
     if (change.closed_quad == kNone) return claimed.claim(change.patch.outline);
     // Where nothing has touched one corner, the quad is what it was.
     const DartGraph& g = graph_.graph();
@@ -219,7 +221,7 @@ class Regularising {
     return claimed.claim(corners);
   }
 
-  bool apply(const Change& change) {
+  bool apply(const QuadChange& change) {
     if (change.closed_quad == kNone) {
       divide(graph_, change.patch, change.division);
       ++counts_.divided_patches;

@@ -13,7 +13,7 @@ namespace {
 constexpr int kMostStripRounds = 4;
 /// Longer strips are left: finding that a way does not meet itself takes the square of its length.
 constexpr std::size_t kLongestStrip = 400;
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kImpossible = std::numeric_limits<double>::infinity();
 /// Most that a strip may cost by its shape, for each of its rungs. One of the wanted width costs
 /// 0.3 to split and 0.6 to take out.
 constexpr double kMostPerRung = 1;
@@ -115,10 +115,10 @@ class StripCount {
     }
     const double price =
         taken_out ? collapse_price(graph_, strip, wanted_) : split_price(graph_, strip, wanted_);
-    if (price - bonus > kMostPerRung * rungs) return kNever;
+    if (price - bonus > kMostPerRung * rungs) return kImpossible;
     const double gain = taken_out ? collapse_gain(graph_, strip) : split_gain(graph_, strip);
     const double shape = (price - bonus - gain) / rungs;
-    if (!(shape <= kMostPerRung)) return kNever;
+    if (!(shape <= kMostPerRung)) return kImpossible;
     return shape + (taken_out ? 1 : -1) * errors(strip) / rungs;
   }
 
@@ -127,7 +127,7 @@ class StripCount {
     std::vector<Offer> found;
     for (Strip& strip : find_strips(graph_)) {
       const double price = cost(strip, taken_out);
-      if (price < kNever) found.push_back({std::move(strip), price});
+      if (price < kImpossible) found.push_back({std::move(strip), price});
     }
     std::stable_sort(found.begin(), found.end(),
                      [](const Offer& a, const Offer& b) { return a.cost < b.cost; });
