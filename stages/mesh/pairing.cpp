@@ -14,7 +14,7 @@ namespace strake {
 namespace {
 
 constexpr int kMostPairingRounds = 12;
-constexpr std::size_t kLongestStrip = 24;
+constexpr std::size_t kLongestToPair = 24;
 /// Quads between two odd faces that are divided anew together with them.
 constexpr std::size_t kMostBetween = 2;
 constexpr double kLeastGain = 0.05;
@@ -77,7 +77,7 @@ class Pairing {
   }
 
   void add_strips(Index out, std::vector<Change>& found) const {
-    const std::optional<Strip> strip = follow_strip(graph_, out, kLongestStrip);
+    const std::optional<Strip> strip = follow_strip(graph_, out, kLongestToPair);
     if (!strip) return;
     // Both ways along a strip are found; boundaries are reached from one end only.
     const double bonus = price_ * (strip->ends_outside ? 1 : 2);
