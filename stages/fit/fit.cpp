@@ -199,37 +199,31 @@ class Fit {
   bool retreat(const std::vector<VertexPlaces::State>& start, const std::vector<Vec3>& moves,
                double step) {
     std::vector<double> shares(start.size(), step);
+    const auto none = [](Index) { return 0.0; };
+    // So faces come near to others that they would cross.
+    const auto less = [&](Index v) {
+      return shares[v] = shares[v] > kLeastOfMove ? shares[v] / 2 : 0;
+    };
     for (int i = 0; i < kMostRetreats; ++i) {
-      if (put_back(guard_.spoilt(places_), start)) continue;
-      if (!draw_back(guard_.newly_crossing(places_), start, moves, shares)) return true;
+      if (move_less(guard_.spoilt(places_), start, moves, none)) continue;
+      if (!move_less(guard_.newly_crossing(places_), start, moves, less)) return true;
     }
     return false;
   }
 
-  /// Halves the moves of vertices, and takes them back at last, so that faces come near to others
-  /// that they would cross.
-  /// \param shares  [V] of the moves, that are made
-  /// \return whether any was
-  bool draw_back(const std::vector<std::uint8_t>& which,
+  /// Makes a smaller share of the moves of vertices that have moved.
+  /// \param which  [V] 1: of these
+  /// \param share  (Index vertex) -> share of its move, 0 where it is put back
+  /// \return whether any had
+  template <class Share>
+  bool move_less(const std::vector<std::uint8_t>& which,
                  const std::vector<VertexPlaces::State>& start, const std::vector<Vec3>& moves,
-                 std::vector<double>& shares) {
-    bool any = false;
-    for (Index v = 0; v < system_.size(); ++v) {
-      if (which[v] == 0 || places_.positions()[v] == start[v].position) continue;
-      shares[v] = shares[v] > kLeastOfMove ? shares[v] / 2 : 0;
-      places_.restore(v, start[v]);
-      if (shares[v] > 0) places_.move(v, shares[v] * moves[v]);
-      any = true;
-    }
-    return any;
-  }
-
-  bool put_back(const std::vector<std::uint8_t>& which,
-                const std::vector<VertexPlaces::State>& start) {
+                 const Share& share) {
     bool any = false;
     for (Index v = 0; v < system_.size(); ++v) {
       if (which[v] == 0 || places_.positions()[v] == start[v].position) continue;
       places_.restore(v, start[v]);
+      if (const double left = share(v); left > 0) places_.move(v, left * moves[v]);
       any = true;
     }
     return any;

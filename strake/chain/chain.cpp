@@ -139,11 +139,9 @@ std::string Chain::reach_goal(Session& session) const {
   // Counts are met by what faces are made of the lines, not by the lines themselves.
   const Option& scale = trace.option("spacing-scale");
   std::optional<OtherValue> once;
-  if (wanted_count() && scale.value().empty()) once.emplace(scale, "1");
-  for (const Counted counted : {Counted::vertices, Counted::faces}) {
-    const char* name = counted == Counted::vertices ? "vertices" : "faces";
-    if (trace.option(name).value().empty()) continue;
-    return meet_count(session, goal_stages, counted, wanted_count().value(), feedback_rounds,
+  if (const std::optional<WantedCount> wanted = wanted_count()) {
+    if (scale.value().empty()) once.emplace(scale, "1");
+    return meet_count(session, goal_stages, wanted->counted, wanted->count, feedback_rounds,
                       lines_only, working_ratio);
   }
   const std::string tolerance = trace.option("tolerance").value();
@@ -163,29 +161,30 @@ void Chain::keep_ridges() const {
 
 std::optional<Length> Chain::height_of_facets(const Session& session, double diagonal) const {
   const auto is_given = [&](const char* name) { return !import.option(name).value().empty(); };
-  const std::optional<std::int64_t> wanted = wanted_count();
+  const std::optional<WantedCount> wanted = wanted_count();
   if (import.option("feature-angle").number() != ImportOptions{}.feature_angle_deg ||
       is_given("feature-height") || is_given("facet-height") || !wanted) {
     return std::nullopt;
   }
   // A quad-dominant mesh has about as many faces as vertices.
-  return facet_height(session.get<Polygons>("input").mesh, diagonal, static_cast<double>(*wanted));
+  return facet_height(session.get<Polygons>("input").mesh, diagonal,
+                      static_cast<double>(wanted->count));
 }
 
-std::optional<std::int64_t> Chain::wanted_count() const {
-  for (const char* name : {"vertices", "faces"}) {
-    if (const auto count = trace.option(name).number()) return std::llround(*count);
+std::optional<Chain::WantedCount> Chain::wanted_count() const {
+  for (const Counted counted : {Counted::vertices, Counted::faces}) {
+    const std::optional<double> count = trace.option(name_of(counted)).number();
+    if (count) return WantedCount{counted, std::llround(*count)};
   }
   return std::nullopt;
 }
 
 std::string Chain::run_with_facets(Session& session, const Length& height) const {
-  const bool is_of_vertices = !trace.option("vertices").value().empty();
+  const WantedCount wanted = wanted_count().value();
   const WayToResult way{stages(), [&](Session& other) { import_mesh(other); },
                         [&](Session& other) { return reach_goal(other); }};
   return make_with_facets_if_better(session, way, import.option("facet-height"), height,
-                                    is_of_vertices ? Counted::vertices : Counted::faces,
-                                    wanted_count().value());
+                                    wanted.counted, wanted.count);
 }
 
 void Chain::import_mesh(Session& session) const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/core/options.h"
+#include "common/core/wanted_count.h"
 #include "common/stage/stage.h"
 #include "strake/chain/session.h"
 
@@ -58,8 +59,11 @@ struct Chain {
   /// \param diagonal  of the input, model units
   [[nodiscard]] std::optional<Length> height_of_facets(const Session& session,
                                                        double diagonal) const;
-  /// The number of vertices or faces wanted.
-  [[nodiscard]] std::optional<std::int64_t> wanted_count() const;
+  struct WantedCount {
+    Counted counted;
+    std::int64_t count;
+  };
+  [[nodiscard]] std::optional<WantedCount> wanted_count() const;
   /// Makes a result for a count, with edges between facets as features or without.
   /// \param height  of these
   std::string run_with_facets(Session& session, const Length& height) const;
