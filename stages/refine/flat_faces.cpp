@@ -75,23 +75,26 @@ Index face_beyond(const PolyEdges& edges, Index face, Index a, Index b) {
 /// What takes the place of faces.
 using Replacements = std::map<Index, std::vector<std::array<Index, 3>>>;
 
-/// A flat quad as two triangles, along the shorter diagonal if it can be, so that they do not have
-/// their longest sides in common; none where the edge between them would be double.
-std::vector<std::array<Index, 3>> halves(const PolyMesh& mesh, Index f, const PolyEdges& edges) {
+/// A face as triangles: of a quad both ways, along the shorter diagonal first, so that those of a
+/// flat one do not have their longest sides in common; none that makes an edge double.
+std::vector<std::vector<std::array<Index, 3>>> cuts(const PolyMesh& mesh, Index f,
+                                                    const PolyEdges& edges) {
   const std::span<const Index> face = mesh.face(f);
-  const auto along = [&](std::size_t k) {
-    return std::vector<std::array<Index, 3>>{{face[k], face[k + 1], face[k + 2]},
-                                             {face[k], face[k + 2], face[(k + 3) % 4]}};
-  };
-  const auto length = [&](std::size_t k) {
-    return (mesh.positions[face[k + 2]] - mesh.positions[face[k]]).norm();
-  };
-  const std::size_t shorter = length(0) <= length(1) ? 0 : 1;
-  for (const std::size_t k : {shorter, 1 - shorter}) {
-    std::vector<std::array<Index, 3>> triangles = along(k);
-    if (adds_no_double_edge(face, triangles, edges)) return triangles;
+  std::vector<std::vector<std::array<Index, 3>>> ways;
+  if (face.size() == 4) {
+    const auto length = [&](std::size_t k) {
+      return (mesh.positions[face[k + 2]] - mesh.positions[face[k]]).norm();
+    };
+    const std::size_t shorter = length(0) <= length(1) ? 0 : 1;
+    for (const std::size_t k : {shorter, 1 - shorter}) {
+      ways.push_back(
+          {{face[k], face[k + 1], face[k + 2]}, {face[k], face[k + 2], face[(k + 3) % 4]}});
+    }
+  } else {
+    triangulate_face(mesh.positions, face, ways.emplace_back());
   }
-  return {};
+  std::erase_if(ways, [&](const auto& way) { return !adds_no_double_edge(face, way, edges); });
+  return ways;
 }
 
 /// The longest edges of flat triangles turned, each with a triangle of the face beyond it that has
@@ -105,8 +108,8 @@ Replacements turned_edges(const PolyMesh& mesh, bool cuts_quads) {
     if (face.size() > 4 || instead.contains(f) || !is_flat(mesh.positions, face)) continue;
     if (face.size() == 4) {
       if (!cuts_quads) continue;
-      std::vector<std::array<Index, 3>> triangles = halves(mesh, f, edges);
-      if (!triangles.empty()) instead[f] = std::move(triangles);
+      auto ways = cuts(mesh, f, edges);
+      if (!ways.empty()) instead[f] = std::move(ways.front());
       continue;
     }
     const std::size_t longest = longest_side(mesh.positions, face);
@@ -115,20 +118,20 @@ Replacements turned_edges(const PolyMesh& mesh, bool cuts_quads) {
     const Index m = face[(longest + 2) % 3];
     const Index beyond = face_beyond(edges, f, a, b);
     if (beyond == kNone || instead.contains(beyond)) continue;
-    std::vector<std::array<Index, 3>> triangles;
-    triangulate_face(mesh.positions, mesh.face(beyond), triangles);
-    const auto beside = std::ranges::find_if(triangles, [&](const auto& t) {
-      return std::ranges::find(t, a) != t.end() && std::ranges::find(t, b) != t.end();
-    });
-    if (beside == triangles.end() || is_flat(mesh.positions, *beside)) continue;
-    if (!adds_no_double_edge(mesh.face(beyond), triangles, edges)) continue;
-    const Index c = *std::ranges::find_if(*beside, [&](Index v) { return v != a && v != b; });
-    const std::array<Index, 2> edge = {std::min(c, m), std::max(c, m)};
-    if (std::ranges::binary_search(edges.vertices, edge) || !turned.insert(edge).second) continue;
-    *beside = {m, a, c};
-    triangles.push_back({m, c, b});
-    instead[f] = {};
-    instead[beyond] = std::move(triangles);
+    for (auto& triangles : cuts(mesh, beyond, edges)) {
+      const auto beside = std::ranges::find_if(triangles, [&](const auto& t) {
+        return std::ranges::find(t, a) != t.end() && std::ranges::find(t, b) != t.end();
+      });
+      if (beside == triangles.end() || is_flat(mesh.positions, *beside)) continue;
+      const Index c = *std::ranges::find_if(*beside, [&](Index v) { return v != a && v != b; });
+      const std::array<Index, 2> edge = {std::min(c, m), std::max(c, m)};
+      if (std::ranges::binary_search(edges.vertices, edge) || !turned.insert(edge).second) continue;
+      *beside = {m, a, c};
+      triangles.push_back({m, c, b});
+      instead[f] = {};
+      instead[beyond] = std::move(triangles);
+      break;
+    }
   }
   return instead;
 }

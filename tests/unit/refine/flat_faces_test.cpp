@@ -56,6 +56,24 @@ TEST(FlatFaces, EdgesOfTrianglesWithoutAreaAreTurned) {
   }
 }
 
+/// The quad above is cut the other way where the turned edge, M to 4, belongs to other faces.
+TEST(FlatFaces, AnEdgeThatIsThereIsNotMadeAgain) {
+  const PolyMesh faces = half_cut(true);
+  PolyMesh folded;
+  folded.positions = faces.positions;
+  for (Index f = 0; f < 3; ++f) folded.add_face(faces.face(f));
+  folded.add_face(std::array<Index, 3>{1, 2, 4});
+  const support::Case c = support::on_triangles(folded, triangulate_faces(folded));
+  ToleranceProof proof(std::make_shared<const InputSurface>(c.mesh), 1e-3);
+  QuadMesh quads = c.quads;
+  mend_flat_faces_within(proof, quads);
+  for (Index f = 0; f < quads.mesh.face_count(); ++f) {
+    EXPECT_GT(newell_normal(quads.mesh.positions, quads.mesh.face(f)).norm() / 2, 0.1);
+  }
+  EXPECT_TRUE(analyse(quads.mesh).is_oriented_manifold());
+  EXPECT_EQ(analyse(quads.mesh).euler, analyse(folded).euler);
+}
+
 /// A grid of 4 x 4 quads with a quad folded onto itself in a slit along two of its edges, around a
 /// vertex that is there twice.
 QuadMesh slit(bool at_boundary) {
