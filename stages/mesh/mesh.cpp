@@ -12,9 +12,9 @@
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_topology.h"
 #include "common/geometry/poly_topology/same_topology.h"
-#include "common/geometry/surface_distance/surface_distance.h"
 #include "common/geometry/topology/topology.h"
 #include "stages/mesh/cell_shape.h"
+#include "stages/mesh/edge_heights.h"
 #include "stages/mesh/flats.h"
 #include "stages/mesh/halfedge_check.h"
 #include "stages/mesh/overlay.h"
@@ -232,10 +232,10 @@ PolygonGraph cut_out_cells(const TriMesh& mesh, const LineSet& lines,
 }
 
 /// The cells between the lines, simplified and divided to faces of few sides.
-/// \param surface  made where there is none yet: not before cells are formed, which takes most memory
+/// \param heights  made where there are none yet: not before cells are formed, which takes most memory
 Cells divide_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions& options,
                    const std::vector<Index>& component, const std::vector<Triangles>& triangles,
-                   const BorderCourse& borders, std::optional<SurfaceDistance>& surface,
+                   const BorderCourse& borders, std::optional<EdgeHeights>& heights,
                    Observer& observer) {
   Index cuts = 0;
   Cells cells{
@@ -246,21 +246,21 @@ Cells divide_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions&
       simplify(cells.graph, [&](const SurfaceNode& node) { return local_size(mesh, lines, node); },
                {.shortest = kShortestEdge, .corner_distance = options.corner_distance});
   hold_triangles(component, triangles, cells.graph);
-  if (!surface) surface.emplace(mesh.positions, mesh.faces);
+  if (!heights) heights.emplace(mesh);
   cells.split_features = split_crossing_features(cells.graph);
   observer.report("dividing cells", 0.8);
-  cells.divided = partition(cells.graph, most_sides(options), &*surface);
+  cells.divided = partition(cells.graph, most_sides(options), &*heights);
   cells.redrawn_flats = redraw_flats(cells.graph);
   return cells;
 }
 
 /// Makes quads of odd faces, vertices of valence four, and as many as are wanted.
 void regularise_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions& options,
-                      const SurfaceDistance& surface, Cells& cells) {
+                      const EdgeHeights& heights, Cells& cells) {
   const auto wanted = [&](Index dart) { return wanted_length(mesh, lines, cells.graph, dart); };
-  cells.paired = pair_odd_faces(cells.graph, wanted, options.odd_price, &surface);
+  cells.paired = pair_odd_faces(cells.graph, wanted, options.odd_price, &heights);
   if (options.pure_quads) cells.joined = join_odd_faces(cells.graph);
-  cells.regularised = regularise(cells.graph, options.valence_price, &surface);
+  cells.regularised = regularise(cells.graph, options.valence_price, &heights);
   if (options.strip_vertices > 0) {
     cells.strips = meet_vertex_count(cells.graph, wanted, options.odd_price,
                                      static_cast<Index>(options.strip_vertices));
@@ -276,14 +276,14 @@ Cells form_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions& o
   const std::vector<Index> component = face_components(mesh);
   triangles.assign(*std::max_element(component.begin(), component.end()) + 1, Triangles::merged);
   const Triangles last = options.pure_quads ? Triangles::kept : Triangles::held;
-  std::optional<SurfaceDistance> surface;
+  std::optional<EdgeHeights> heights;
   while (true) {
     Cells cells =
-        divide_cells(mesh, lines, options, component, triangles, borders, surface, observer);
+        divide_cells(mesh, lines, options, component, triangles, borders, heights, observer);
     // Seen before the long work is done, as far as it can be.
     if (find_starved(mesh, component, cells.graph, last, triangles)) continue;
     observer.report("pairing odd faces", 0.9);
-    regularise_cells(mesh, lines, options, *surface, cells);
+    regularise_cells(mesh, lines, options, *heights, cells);
     if (!find_starved(mesh, component, cells.graph, last, triangles)) return cells;
   }
 }

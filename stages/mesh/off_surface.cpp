@@ -16,24 +16,21 @@ constexpr double kFlatCosine = 0.8;
 }  // namespace
 
 OffSurface::OffSurface(const PolygonGraph& graph, const DartLoop& outline,
-                       const SurfaceDistance* surface)
-    : surface_(surface) {
-  if (surface == nullptr) return;
+                       const EdgeHeights* heights)
+    : heights_(heights) {
+  if (heights == nullptr) return;
   const Vec3 normal = vector_area(corner_positions(graph, outline)).normalized();
   const bool is_flat = std::ranges::all_of(outline, [&](Index d) {
     return graph.surface_normal(graph.graph().from(d)).dot(normal) >= kFlatCosine;
   });
-  if (is_flat) surface_ = nullptr;
+  if (is_flat) heights_ = nullptr;
 }
 
 double OffSurface::price(const Vec3& a, const Vec3& b) const {
   const double length2 = (b - a).squaredNorm();
-  if (surface_ == nullptr || !(length2 > 0)) return 0;
-  double farthest = 0;
-  for (const double share : {0.25, 0.5, 0.75}) {
-    farthest = std::max(farthest, surface_->closest(a + share * (b - a)).distance);
-  }
-  return kOffPrice * farthest * farthest / length2;
+  if (heights_ == nullptr || !(length2 > 0)) return 0;
+  const double height = heights_->at(a, b);
+  return kOffPrice * height * height / length2;
 }
 
 }  // namespace strake

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/geometry/surface_distance/surface_distance.h"
+#include "stages/mesh/edge_heights.h"
 #include "stages/mesh/polygon_graph.h"
 
 namespace strake {
@@ -11,15 +11,15 @@ namespace strake {
 /// well-shaped face, and closes the hole halfway.
 class OffSurface {
  public:
-  /// \param surface  kept by reference; nullptr: edges are free
-  OffSurface(const PolygonGraph& graph, const DartLoop& outline, const SurfaceDistance* surface);
+  /// \param heights  kept by reference; nullptr: edges are free
+  OffSurface(const PolygonGraph& graph, const DartLoop& outline, const EdgeHeights* heights);
 
   /// Price of a straight edge, beside shape penalties (see shape_penalty). 0 where the surface
   /// along the outline is nearly flat.
   [[nodiscard]] double price(const Vec3& a, const Vec3& b) const;
 
  private:
-  const SurfaceDistance* surface_;  ///< nullptr where edges are free
+  const EdgeHeights* heights_;  ///< nullptr where edges are free
 };
 
 }  // namespace strake

@@ -36,12 +36,11 @@ struct Change {
 
 class Pairing {
  public:
-  Pairing(PolygonGraph& graph, const EdgeLength& wanted, double price,
-          const SurfaceDistance* surface)
+  Pairing(PolygonGraph& graph, const EdgeLength& wanted, double price, const EdgeHeights* heights)
       : graph_(graph),
         wanted_(wanted),
         price_(price),
-        surface_(surface),
+        heights_(heights),
         claimed_(ClaimedNodes::all(graph)) {}
 
   PairingCounts run() {
@@ -116,7 +115,7 @@ class Pairing {
       return kDegreePrice * (degree - 4) * (degree - 4);
     };
     std::optional<Division> division =
-        best_division(graph_, *patch, penalty, std::numeric_limits<double>::infinity(), surface_);
+        best_division(graph_, *patch, penalty, std::numeric_limits<double>::infinity(), heights_);
     if (!division) return;
     const double gain = division->shape_gain + division->degree_gain + 2 * price_;
     if (!(gain > kLeastGain)) return;
@@ -168,17 +167,17 @@ class Pairing {
   PolygonGraph& graph_;
   const EdgeLength& wanted_;
   double price_;
-  const SurfaceDistance* surface_;  ///< not owned
-  ClaimedNodes claimed_;            ///< in this round, or the last one until its changes are made
+  const EdgeHeights* heights_;  ///< not owned
+  ClaimedNodes claimed_;        ///< in this round, or the last one until its changes are made
   PairingCounts counts_;
 };
 
 }  // namespace
 
 PairingCounts pair_odd_faces(PolygonGraph& graph, const EdgeLength& wanted, double price,
-                             const SurfaceDistance* surface) {
+                             const EdgeHeights* heights) {
   if (!(price > 0)) return {};
-  return Pairing(graph, wanted, price, surface).run();
+  return Pairing(graph, wanted, price, heights).run();
 }
 
 }  // namespace strake

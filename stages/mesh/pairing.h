@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/geometry/surface_distance/surface_distance.h"
+#include "stages/mesh/edge_heights.h"
 #include "stages/mesh/polygon_graph.h"
 #include "stages/mesh/strip.h"
 
@@ -22,8 +22,8 @@ struct PairingCounts {
 /// \param wanted   wanted length of an edge
 /// \param price    what a face that is no quad costs, beside shape penalties (see shape_penalty); 0
 ///                 changes nothing
-/// \param surface  that of the mesh, which edges should be near (see OffSurface); may be nullptr
+/// \param heights  over the mesh, which edges should be near (see OffSurface); may be nullptr
 PairingCounts pair_odd_faces(PolygonGraph& graph, const EdgeLength& wanted, double price,
-                             const SurfaceDistance* surface = nullptr);
+                             const EdgeHeights* heights = nullptr);
 
 }  // namespace strake

@@ -60,8 +60,8 @@ class FlatPolygon {
 
 class Partitioner {
  public:
-  Partitioner(PolygonGraph& graph, Index max_sides, const SurfaceDistance* surface)
-      : graph_(graph), max_sides_(max_sides), surface_(surface) {}
+  Partitioner(PolygonGraph& graph, Index max_sides, const EdgeHeights* heights)
+      : graph_(graph), max_sides_(max_sides), heights_(heights) {}
 
   PartitionCounts run() {
     separate_pinched();
@@ -122,7 +122,7 @@ class Partitioner {
       any_reflex = any_reflex || reflex[i] != 0;
     }
     const FlatPolygon flat(p, n);
-    const OffSurface off(graph_, cell, surface_);
+    const OffSurface off(graph_, cell, heights_);
     if (p.size() > kLargestScored) return shortest_balanced_diagonal(cell, p, flat);
     for (const bool relaxed : {false, true}) {
       double best = std::numeric_limits<double>::infinity();
@@ -293,14 +293,14 @@ class Partitioner {
 
   PolygonGraph& graph_;
   Index max_sides_;
-  const SurfaceDistance* surface_;  ///< not owned
+  const EdgeHeights* heights_;  ///< not owned
   PartitionCounts counts_;
 };
 
 }  // namespace
 
-PartitionCounts partition(PolygonGraph& graph, Index max_sides, const SurfaceDistance* surface) {
-  return Partitioner(graph, max_sides, surface).run();
+PartitionCounts partition(PolygonGraph& graph, Index max_sides, const EdgeHeights* heights) {
+  return Partitioner(graph, max_sides, heights).run();
 }
 
 }  // namespace strake

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/geometry/surface_distance/surface_distance.h"
+#include "stages/mesh/edge_heights.h"
 #include "stages/mesh/polygon_graph.h"
 
 namespace strake {
@@ -16,9 +16,9 @@ struct PartitionCounts {
 ///
 /// The score of a diagonal favours right angles in both parts. A corner that is only slightly
 /// reflex, as T-joints are, is moved into line instead of dividing its face.
-/// \param surface  that of the mesh, which new edges should be near (see OffSurface); may be
+/// \param heights  over the mesh, which new edges should be near (see OffSurface); may be
 /// nullptr
 PartitionCounts partition(PolygonGraph& graph, Index max_sides,
-                          const SurfaceDistance* surface = nullptr);
+                          const EdgeHeights* heights = nullptr);
 
 }  // namespace strake

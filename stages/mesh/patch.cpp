@@ -16,12 +16,12 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 class Divider {
  public:
   Divider(const PolygonGraph& graph, const Patch& patch, const DegreePenalty& penalty, double worst,
-          const SurfaceDistance* surface)
+          const EdgeHeights* heights)
       : graph_(graph),
         patch_(patch),
         penalty_(penalty),
         worst_(worst),
-        off_(graph, patch.outline, surface),
+        off_(graph, patch.outline, heights),
         p_(corner_positions(graph, patch.outline)) {
     normal_ = vector_area(p_);
     const std::size_t n = p_.size();
@@ -173,8 +173,8 @@ std::optional<Patch> join_cells(const PolygonGraph& graph, const std::vector<Ind
 
 std::optional<Division> best_division(const PolygonGraph& graph, const Patch& patch,
                                       const DegreePenalty& penalty, double worst,
-                                      const SurfaceDistance* surface) {
-  return Divider(graph, patch, penalty, worst, surface).run();
+                                      const EdgeHeights* heights) {
+  return Divider(graph, patch, penalty, worst, heights).run();
 }
 
 void divide(PolygonGraph& graph, const Patch& patch, const Division& division) {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/geometry/surface_distance/surface_distance.h"
+#include "stages/mesh/edge_heights.h"
 #include "stages/mesh/polygon_graph.h"
 
 namespace strake {
@@ -33,11 +33,11 @@ struct Division {
 
 /// The division of a patch into quads by diagonals that has the best shapes and degrees.
 /// \param worst    no face has a larger penalty than this
-/// \param surface  that of the mesh, which edges should be near (see OffSurface); may be nullptr
+/// \param heights  over the mesh, which edges should be near (see OffSurface); may be nullptr
 /// \return nothing where every division has a reflex corner, a double edge or a vertex of valence 2
 std::optional<Division> best_division(const PolygonGraph& graph, const Patch& patch,
                                       const DegreePenalty& penalty, double worst,
-                                      const SurfaceDistance* surface = nullptr);
+                                      const EdgeHeights* heights = nullptr);
 
 /// Replaces the edges inside a patch by the diagonals of a division.
 void divide(PolygonGraph& graph, const Patch& patch, const Division& division);

@@ -34,8 +34,8 @@ struct QuadChange {
 
 class Regularising {
  public:
-  Regularising(PolygonGraph& graph, double price, const SurfaceDistance* surface)
-      : graph_(graph), price_(price), surface_(surface) {}
+  Regularising(PolygonGraph& graph, double price, const EdgeHeights* heights)
+      : graph_(graph), price_(price), heights_(heights) {}
 
   RegularisingCounts run() {
     active_.assign(graph_.node_count(), 1);
@@ -147,7 +147,7 @@ class Regularising {
     for (const Index cell : cells) {
       worst = std::max(worst, penalty_now(corner_positions(graph_, graph_.cell(cell))));
     }
-    std::optional<Division> division = best_division(graph_, *patch, penalty, worst, surface_);
+    std::optional<Division> division = best_division(graph_, *patch, penalty, worst, heights_);
     if (!division || !(division->degree_gain > 0)) return;
     const double gain = division->shape_gain + division->degree_gain;
     if (gain > kLeastQuadGain)
@@ -253,9 +253,9 @@ class Regularising {
 
   PolygonGraph& graph_;
   double price_;
-  const SurfaceDistance* surface_;  ///< not owned
-  std::vector<char> active_;        ///< [nodes] where the last round changed something
-  std::vector<Index> excess_;       ///< [nodes]
+  const EdgeHeights* heights_;  ///< not owned
+  std::vector<char> active_;    ///< [nodes] where the last round changed something
+  std::vector<Index> excess_;   ///< [nodes]
   RegularisingCounts counts_;
 };
 
@@ -274,9 +274,9 @@ Index irregularity(const PolygonGraph& graph, Index dart, Index degree) {
   return std::abs(degree - 4);
 }
 
-RegularisingCounts regularise(PolygonGraph& graph, double price, const SurfaceDistance* surface) {
+RegularisingCounts regularise(PolygonGraph& graph, double price, const EdgeHeights* heights) {
   if (!(price > 0)) return {};
-  return Regularising(graph, price, surface).run();
+  return Regularising(graph, price, heights).run();
 }
 
 }  // namespace strake

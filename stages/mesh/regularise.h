@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/geometry/surface_distance/surface_distance.h"
+#include "stages/mesh/edge_heights.h"
 #include "stages/mesh/polygon_graph.h"
 
 namespace strake {
@@ -24,8 +24,8 @@ Index irregularity(const PolygonGraph& graph, Index dart, Index degree);
 /// \pre faces are convex; they stay so
 /// \param price    what an edge too many or too few costs, beside shape penalties (see
 ///                 shape_penalty); 0 changes nothing
-/// \param surface  that of the mesh, which edges should be near (see OffSurface); may be nullptr
+/// \param heights  over the mesh, which edges should be near (see OffSurface); may be nullptr
 RegularisingCounts regularise(PolygonGraph& graph, double price,
-                              const SurfaceDistance* surface = nullptr);
+                              const EdgeHeights* heights = nullptr);
 
 }  // namespace strake

@@ -63,12 +63,12 @@ double farthest_off(const PolygonGraph& graph) {
 TEST(Partition, KeepsTheWallOfAHoleOpen) {
   for (const double length : {0.5, 1.0, 3.0}) {
     const TriMesh mesh = wall(length);
-    const SurfaceDistance surface(mesh.positions, mesh.faces);
+    const EdgeHeights heights(mesh);
     for (const Index lines : {2, 3}) {
       PolygonGraph graph = few_cells(mesh, lines);
       const double rims = farthest_off(graph);
       ASSERT_LT(rims, 0.15) << "rims are divided";
-      partition(graph, 4, &surface);
+      partition(graph, 4, &heights);
       EXPECT_LE(farthest_off(graph), rims) << lines << " lines, length " << length;
     }
   }
@@ -83,20 +83,19 @@ TEST(Partition, ClosesThatWallWhereOnlyShapesCount) {
 
 /// The wall, and the outline of one of its cells.
 struct WallCell {
-  explicit WallCell(Index lines)
-      : mesh(wall(3)), surface(mesh.positions, mesh.faces), graph(few_cells(mesh, lines)) {
+  explicit WallCell(Index lines) : mesh(wall(3)), heights(mesh), graph(few_cells(mesh, lines)) {
     graph.for_each_cell([&](Index, const DartLoop& cell) { outline = cell; });
   }
 
   TriMesh mesh;
-  SurfaceDistance surface;
+  EdgeHeights heights;
   PolygonGraph graph;
   DartLoop outline;
 };
 
 TEST(OffSurface, PricesTheSquareOfTheShareThatAnEdgeIsOff) {
   const WallCell half(2);
-  const OffSurface off(half.graph, half.outline, &half.surface);
+  const OffSurface off(half.graph, half.outline, &half.heights);
   EXPECT_NEAR(off.price(Vec3(1, 0, 0), Vec3(1, 0, 3)), 0, 1e-12);
   // A chord of angle a is 1 - cos(a / 2) off in its middle, and 2 sin(a / 2) long.
   const double quarter = off.price(Vec3(1, 0, 1), Vec3(0, 1, 1));
@@ -109,7 +108,7 @@ TEST(OffSurface, PricesTheSquareOfTheShareThatAnEdgeIsOff) {
 
 TEST(OffSurface, LooksAwayWhereTheOutlineIsNearlyFlat) {
   const WallCell eighth(8);
-  const OffSurface off(eighth.graph, eighth.outline, &eighth.surface);
+  const OffSurface off(eighth.graph, eighth.outline, &eighth.heights);
   EXPECT_EQ(off.price(Vec3(1, 0, 1), Vec3(-1, 0, 1)), 0);
 }
 

@@ -1,0 +1,47 @@
+#include "stages/mesh/edge_heights.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+namespace strake {
+namespace {
+
+/// Bits of the hash, so that each thread remembers that many edges to the power of two: 1.8 MB.
+constexpr unsigned kHashBits = 15;
+
+std::size_t hash_of(const Vec3& a, const Vec3& b) {
+  constexpr std::uint64_t kGoldenRatio = 0x9E3779B97F4A7C15U;  // Knuth, volume 3, section 6.4
+  std::uint64_t hash = 0;
+  for (const Vec3* end : {&a, &b}) {
+    for (const double x : *end) {
+      hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * kGoldenRatio;
+      hash ^= hash >> 32U;
+    }
+  }
+  return hash >> (64 - kHashBits);
+}
+
+}  // namespace
+
+double EdgeHeights::at(const Vec3& a, const Vec3& b) const {
+  std::vector<Edge>& last = last_.local();
+  if (last.empty()) last.resize(std::size_t{1} << kHashBits);
+  Edge& edge = last[hash_of(a, b)];
+  if (edge.a != a || edge.b != b) edge = {a, b, measure(a, b)};
+  return edge.height;
+}
+
+double EdgeHeights::measure(const Vec3& a, const Vec3& b) const {
+  double farthest = 0;
+  Index nearest = kNone;
+  for (const double share : {0.25, 0.5, 0.75}) {
+    const ClosestPoint foot = surface_.closest_near(a + share * (b - a), nearest);
+    farthest = std::max(farthest, foot.distance);
+    nearest = foot.triangle;
+  }
+  return farthest;
+}
+
+}  // namespace strake
