@@ -281,9 +281,10 @@ Attempt mend_by_closer_lines(const Attempt& first, const GoalStages& stages, con
 }
 
 /// Traces, feeds errors back, looks for the count, fits, and traces closer where faces cross.
-/// \param may_be_decimated  no lines are looked for where they are in vain
+/// \param rival  where decimation may take their place: no lines are looked for where they are in
+///               vain; nullptr: it may not
 void trace_to_count(Session& session, const GoalStages& stages, const LineAim& aim,
-                    std::optional<std::int64_t> feedback_rounds, bool may_be_decimated) {
+                    std::optional<std::int64_t> feedback_rounds, DecimatedRival* rival) {
   bool has_strips = find_lines(session, stages, aim, feedback_rounds);
   // Corners of features stay where that is possible at this count.
   const Option& distance = stages.mesh.option("corner-distance");
@@ -307,11 +308,10 @@ void trace_to_count(Session& session, const GoalStages& stages, const LineAim& a
   }
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
   const Attempt first = fit_either(session, stages, aim, crossing, has_strips);
-  const bool is_in_vain = may_be_decimated && !first.places.empty() &&
-                          lines_miss_shape(first.done, stages, aim.counted, aim.wanted, crossing);
+  const bool is_in_vain = rival != nullptr && !first.places.empty() &&
+                          rival->shows_what_lines_miss(first.done, crossing);
   const GiveUp for_decimation = [&](const Attempt& best) {
-    return may_be_decimated &&
-           decimation_is_better(best.done, stages, aim.counted, aim.wanted, crossing);
+    return rival != nullptr && rival->is_better(best.done, crossing);
   };
   session = is_in_vain ? first.done
                        : mend_by_closer_lines(first, stages, aim, want_relatively_closer,
@@ -400,16 +400,17 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
   std::optional<Session> coarser = on_coarser_mesh(session, stages, wanted, working_ratio);
   if (!coarser) estimate_field(session, stages);
   const LineAim aim = aim_of(session, stages, counted, wanted);
-  const bool may_be_decimated = !needs_lines(session, stages, lines_only);
+  std::optional<DecimatedRival> rival;
+  if (!needs_lines(session, stages, lines_only)) rival.emplace(stages, counted, wanted);
   trace_to_count(coarser ? *coarser : session, stages, aim, feedback_rounds,
-                 may_be_decimated && !coarser);
+                 rival && !coarser ? &*rival : nullptr);
   if (coarser) {
     if (coarser->has("uncrossed")) coarser->keep(stages.uncross);
     take_from_coarser_mesh(session, std::move(*coarser), stages);
   }
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
   if (coarser) replace_crossing(session, stages, aim, crossing);
-  if (may_be_decimated && decimate_if_too_coarse(session, stages, counted, wanted, crossing)) {
+  if (rival && rival->replace_if_too_coarse(session, crossing)) {
     part_decimated(session, stages, aim, crossing);
   }
   if (session.has("uncrossed")) session.keep(stages.uncross);

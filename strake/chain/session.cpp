@@ -23,6 +23,14 @@ StageRecord& Session::record_of(const Stage& stage) {
   return records_.emplace_back();
 }
 
+void Session::take_run(const Stage& stage, const Session& other) {
+  take_from(other, {stage.output.name});
+  for (const StageRecord& record : other.records_) {
+    if (record.provenance.stage == stage.name) record_of(stage) = record;
+  }
+  seconds_.try_emplace(stage.name, other.seconds_.at(stage.name));
+}
+
 const TriMesh* Session::mesh_of(const Value& value) const {
   const std::string id = mesh_id_of(value);
   for (const auto& [port, entry] : values_) {

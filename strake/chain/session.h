@@ -64,6 +64,10 @@ class Session {
     for (const std::string& port : ports) values_[port] = other.values_.at(port);
   }
 
+  /// Takes the last run of a stage over from another session: its output and record, and its time
+  /// where it has not run in this one.
+  void take_run(const Stage& stage, const Session& other);
+
   /// Takes back what the port was provided with.
   void withdraw(const std::string& port) { values_.erase(port); }
   [[nodiscard]] bool has(const std::string& port) const {

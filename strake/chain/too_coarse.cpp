@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "common/core/error.h"
 #include "strake/chain/replace_crossing.h"
@@ -132,66 +133,65 @@ Session decimated(Session session, const GoalStages& stages, const Goal& goal) {
   return session;
 }
 
-/// What is wrong then; nothing where it cannot be done, which is said when it is to take the place
-/// of lines.
-std::optional<ResultFaults> faults_decimated(const Session& session, const GoalStages& stages,
-                                             const Goal& goal, CrossingPlaces& crossing) {
-  try {
-    return faults_of(decimated(session, stages, goal), goal.counted, goal.wanted, crossing);
-  } catch (const AlgorithmError&) {
-    return std::nullopt;
-  }
-}
-
 }  // namespace
 
-bool decimation_is_better(const Session& session, const GoalStages& stages, Counted counted,
-                          std::int64_t wanted, CrossingPlaces& crossing) {
-  const std::optional<ResultFaults> left =
-      faults_decimated(session, stages, {counted, wanted}, crossing);
-  return left && is_much_better(*left, faults_of(session, counted, wanted, crossing));
+const DecimatedRival::Made* DecimatedRival::made(const Session& session, CrossingPlaces& crossing) {
+  if (!made_ && why_not_.empty()) {
+    try {
+      Session other = decimated(session, stages_, {counted_, wanted_});
+      const ResultFaults faults = faults_of(other, counted_, wanted_, crossing);
+      for (const char* port : {"lines", "refined", "size"}) other.withdraw(port);
+      made_ = {std::move(other), faults};
+    } catch (const AlgorithmError& error) {
+      why_not_ = error.what();
+    }
+  }
+  return made_ ? &*made_ : nullptr;
 }
 
-bool lines_miss_shape(const Session& session, const GoalStages& stages, Counted counted,
-                      std::int64_t wanted, CrossingPlaces& crossing) {
-  const ResultFaults faults = faults_of(session, counted, wanted, crossing);
+bool DecimatedRival::is_better(const Session& session, CrossingPlaces& crossing) {
+  const Made* other = made(session, crossing);
+  return other != nullptr &&
+         is_much_better(other->faults, faults_of(session, counted_, wanted_, crossing));
+}
+
+bool DecimatedRival::shows_what_lines_miss(const Session& session, CrossingPlaces& crossing) {
+  const ResultFaults faults = faults_of(session, counted_, wanted_, crossing);
   if (faults.distance <= kSeen) return false;
-  const std::optional<ResultFaults> left =
-      faults_decimated(session, stages, {counted, wanted}, crossing);
-  return left && is_shape_missed(*left, faults) && is_much_better(*left, faults);
+  const Made* other = made(session, crossing);
+  return other != nullptr && is_shape_missed(other->faults, faults) &&
+         is_much_better(other->faults, faults);
 }
 
-bool decimate_if_too_coarse(Session& session, const GoalStages& stages, Counted counted,
-                            std::int64_t wanted, CrossingPlaces& crossing) {
-  const Goal goal{counted, wanted};
-  const ResultFaults first = faults_of(session, counted, wanted, crossing, kFirstSamples);
+bool DecimatedRival::replace_if_too_coarse(Session& session, CrossingPlaces& crossing) {
+  const ResultFaults first = faults_of(session, counted_, wanted_, crossing, kFirstSamples);
   if (first.distance < kFarFromSuspect * kSuspect && !is_too_coarse(first)) return false;
-  const ResultFaults faults = faults_of(session, counted, wanted, crossing);
+  const ResultFaults faults = faults_of(session, counted_, wanted_, crossing);
   if (!is_too_coarse(faults)) return false;
-  session.say(fmt::format("lines are coarse for this shape at {} {}; decimating to compare", wanted,
-                          name_of(counted)));
-  std::optional<Session> other;
-  try {
-    other = decimated(session, stages, goal);
-  } catch (const AlgorithmError& error) {
-    session.say(std::string("warning: kept the lines: ") + error.what());
+  session.say(fmt::format("lines are coarse for this shape at {} {}; decimating to compare",
+                          wanted_, name_of(counted_)));
+  const Made* other = made(session, crossing);
+  if (other == nullptr) {
+    session.say("warning: kept the lines: " + why_not_);
     return false;
   }
-  const ResultFaults left = faults_of(*other, counted, wanted, crossing);
-  if (!is_much_better(left, faults)) return false;
-  session = *other;
-  session.keep(stages.decimate);
-  session.keep(stages.fit);
+  if (!is_much_better(other->faults, faults)) return false;
+  session.withdraw("uncrossed");
+  session.take_from(other->session, {"quads"});
+  for (const Stage* stage : {&stages_.decimate, &stages_.fit}) {
+    session.take_run(*stage, other->session);
+    session.keep(*stage);
+  }
   const bool is_spent = is_input_spent(session);
   std::string triangles;
-  if (left.odd > kUsuallyOdd) {
+  if (other->faults.odd > kUsuallyOdd) {
     triangles = is_spent ? ", and has more triangles" : ", and has more triangles: ask for more";
   }
   session.say(fmt::format(
       "warning: {} at {} {}: the result was decimated instead{}; --lines-only keeps lines",
       is_spent ? "faces along lines cross or miss this shape"
                : "lines are too coarse for this shape",
-      wanted, name_of(counted), triangles));
+      wanted_, name_of(counted_), triangles));
   return true;
 }
 

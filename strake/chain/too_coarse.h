@@ -1,33 +1,67 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string>
 
 #include "common/geometry/face_crossings/crossing_places.h"
 #include "strake/chain/counted.h"
 #include "strake/chain/goal_stages.h"
 #include "strake/chain/line_aim.h"
+#include "strake/chain/result_faults.h"
 #include "strake/chain/session.h"
 
 namespace strake {
 
-/// Where lines are too coarse for the surface, looks whether decimation does much better.
-///
-/// They are where faces cross that do not in the surface, where the distance to it is what one sees
-/// beside the size of a cell, or where the count is missed. Much better is a result that crosses
-/// less, is at less than half of the distance (a quarter where that is below 6 % of a cell) or has
-/// the count, and is in none of these worse; it
-/// takes the place of "quads" and "fitted" then, "uncrossed" goes, and the user is told. Such a
-/// result is quad-dominant by area, and follows edges of the surface rather than lines.
-/// \pre what `result_port` names was made from lines for that count
-/// \param crossing  of "mesh", like that of the others
-/// \return whether it was decimated
-bool decimate_if_too_coarse(Session& session, const GoalStages& stages, Counted counted,
-                            std::int64_t wanted, CrossingPlaces& crossing);
+/// The surface decimated to a wanted count, to compare with what lines give. It is made when first
+/// asked for, and once.
+class DecimatedRival {
+ public:
+  /// \param stages  kept by reference
+  DecimatedRival(const GoalStages& stages, Counted counted, std::int64_t wanted)
+      : stages_(stages), counted_(counted), wanted_(wanted) {}
+
+  // Of what `result_port` of a session names, made from lines for that count; the session's mesh is
+  // the same each time, and `crossing` is of it.
+
+  /// Whether decimation is much better: it crosses less, is at less than half of the distance (a
+  /// quarter where that is below 6 % of a cell) or has the count, and is in none of these worse.
+  bool is_better(const Session& session, CrossingPlaces& crossing);
+
+  /// Whether lines miss the shape by so much, with cells of which one sees that, that closer ones
+  /// in places are in vain: decimation is at less than a quarter of the distance.
+  bool shows_what_lines_miss(const Session& session, CrossingPlaces& crossing);
+
+  /// Where lines are too coarse for the surface, looks whether decimation is much better.
+  ///
+  /// They are where faces cross that do not in the surface, where the distance to it is what one
+  /// sees beside the size of a cell, or where the count is missed. A better result takes the place
+  /// of "quads" and "fitted", "uncrossed" goes, and the user is told. It is quad-dominant by area,
+  /// and follows edges of the surface rather than lines.
+  /// \return whether it was decimated
+  bool replace_if_too_coarse(Session& session, CrossingPlaces& crossing);
+
+ private:
+  /// What it takes to make it a session's result.
+  struct Made {
+    Session session;
+    ResultFaults faults;
+  };
+
+  /// \return nullptr where it cannot be made
+  const Made* made(const Session& session, CrossingPlaces& crossing);
+
+  const GoalStages& stages_;
+  Counted counted_;
+  std::int64_t wanted_;
+  std::optional<Made> made_;
+  std::string why_not_;  ///< empty: it can be made, as far as is known
+};
 
 /// Takes the input's own faces where those of a decimated result cross, and where that is not
 /// enough decimates to counts nearby, whose collapses take other ways; the result with the fewest
 /// stays.
-/// \pre `decimate_if_too_coarse` decimated it to that count
+/// \pre a `DecimatedRival` of that count has taken its place
 /// \param crossing  of "mesh"
 void part_decimated(Session& session, const GoalStages& stages, const LineAim& aim,
                     CrossingPlaces& crossing);
@@ -43,16 +77,5 @@ void part_decimated(Session& session, const GoalStages& stages, const LineAim& a
 /// \return whether it was decimated
 bool decimate_if_tangled(Session& session, const GoalStages& stages, CrossingPlaces& crossing,
                          std::size_t crossing_faces);
-
-/// Whether it would be decimated as it is: faces cross or it is farther off, and decimation is much
-/// better.
-bool decimation_is_better(const Session& session, const GoalStages& stages, Counted counted,
-                          std::int64_t wanted, CrossingPlaces& crossing);
-
-/// Whether a result made from lines misses the shape by so much, with cells of which one sees that,
-/// that closer lines in places are in vain: decimation to the same count is at less than a quarter
-/// of the distance.
-bool lines_miss_shape(const Session& session, const GoalStages& stages, Counted counted,
-                      std::int64_t wanted, CrossingPlaces& crossing);
 
 }  // namespace strake

@@ -171,7 +171,8 @@ bool flat_grid_misses(const PolyMesh& surface, int along) {
   session.provide("fitted", grid, "test", "");
   const GoalStages stages = goal_stages();
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
-  return lines_miss_shape(session, stages, Counted::vertices, grid.mesh.vertex_count(), crossing);
+  DecimatedRival rival(stages, Counted::vertices, grid.mesh.vertex_count());
+  return rival.shows_what_lines_miss(session, crossing);
 }
 
 TEST(TooCoarse, CloserLinesAreInVainWhereDecimationFindsTheShape) {
@@ -188,6 +189,39 @@ TEST(TooCoarse, CloserLinesMayDoWhereDecimationIsFarOffToo) {
 TEST(TooCoarse, CloserLinesMayDoWhereCellsAreNearTheShape) {
   const auto low = [](double x, double y) { return 0.02 * std::exp(-(x * x + y * y) / 0.1); };
   EXPECT_FALSE(flat_grid_misses(relief(80, low), 11));
+}
+
+/// Counts runs of decimation.
+class DecimationCount : public Listener {
+ public:
+  void begin(const std::string& stage) override { runs += stage == "decimate" ? 1 : 0; }
+  int runs = 0;
+};
+
+TEST(TooCoarse, TheRivalIsMadeOnceAndTakesThePlaceOfLines) {
+  const auto peak = [](double x, double y) { return 2 * std::exp(-(x * x + y * y) / 0.1); };
+  DecimationCount count;
+  Session session(count);
+  session.provide("input", Polygons{relief(80, peak), "", {}}, "input", "");
+  session.run(import_stage());
+  QuadMesh grid;
+  grid.mesh = relief(11, [](double, double) { return 0.0; });
+  grid.mesh_id = session.get<TriMesh>("mesh").id;
+  session.provide("quads", grid, "test", "");
+  session.provide("fitted", grid, "test", "");
+  const GoalStages stages = goal_stages();
+  CrossingPlaces crossing(session.get<TriMesh>("mesh"));
+  const Index wanted = grid.mesh.vertex_count();
+  DecimatedRival rival(stages, Counted::vertices, wanted);
+  EXPECT_TRUE(rival.shows_what_lines_miss(session, crossing));
+  EXPECT_TRUE(rival.is_better(session, crossing));
+  EXPECT_TRUE(rival.replace_if_too_coarse(session, crossing));
+  EXPECT_EQ(count.runs, 1);
+  EXPECT_EQ(session.get<QuadMesh>("fitted").mesh.vertex_count(), wanted);
+  EXPECT_EQ(session.get<QuadMesh>("quads").mesh.positions,
+            session.get<QuadMesh>("decimated").mesh.positions);
+  EXPECT_EQ(session.records().back().provenance.stage, "fit");
+  EXPECT_FALSE(rival.is_better(session, crossing)) << "it is that itself";
 }
 
 // Faces along lines cross from sheet to sheet, and decimation makes no vertices.
