@@ -72,10 +72,11 @@ class InlayCutter::Cover {
         normals_.push_back((surfaces_.positions()[b] - p).cross(surfaces_.positions()[c] - p));
       }
     }
-    nearest_.emplace(surfaces_.positions(), triangles_);
     const double length = mean_side(patch.outline);
     const double longest = std::max(length, kLeastStep * box.diagonal().norm());
     part_ = surface_part(surfaces_.mesh(), feet, box, longest, kMostFaces);
+    if (part_.faces.empty()) return;
+    nearest_.emplace(surfaces_.positions(), triangles_);
     classify(kOnOutline * length);
   }
 
@@ -169,7 +170,7 @@ class InlayCutter::Cover {
   SurfaceDistance::Triangles triangles_;   ///< of the patch and the cells around
   std::vector<std::uint8_t> is_of_patch_;  ///< [triangles] 0 or 1
   std::vector<Vec3> normals_;              ///< [triangles]
-  std::optional<SurfaceDistance> nearest_;
+  std::optional<SurfaceDistance> nearest_;  ///< to `triangles_`, where there is a part
   SurfacePart part_;
   std::vector<std::uint8_t> is_inside_;  ///< [V of the part] 0 or 1
 };

@@ -36,7 +36,8 @@ SurfacePoint point_of_face(const TriMesh& mesh, Index face, const Vec3& p) {
               .barycentric};
 }
 
-/// Faces joined to some by others that may reach into a box, and what these enclose.
+/// Faces joined to some by others that may reach into a box, and what these enclose; none where
+/// there are more than `most` without that.
 std::set<Index> faces_in(const TriMesh& mesh, const std::vector<Index>& faces,
                          const Eigen::AlignedBox3d& box, std::size_t most) {
   std::vector<Index> queue = faces;
@@ -55,6 +56,7 @@ std::set<Index> faces_in(const TriMesh& mesh, const std::vector<Index>& faces,
       queue.push_back(g);
     }
   }
+  if (queue.size() > most) return {};
   std::set<Index> seen(queue.begin(), queue.end());
   // The boundary is no way out: what rises there above the box is a part of it, too.
   add_enclosed(seen, [&](Index f, const auto& visit) {
