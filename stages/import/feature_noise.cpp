@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <vector>
 
@@ -307,28 +308,29 @@ constexpr double kEdgesOfFrayed = 20;
 constexpr double kLengthOfFrayed = 0.1;
 constexpr double kLeastAroundFrayed = 1 * kDegree;
 
-/// [C] whether much of what was found in a component was noise.
-/// \param found  [3F] edges flagged before \param component  [F]
-std::vector<std::uint8_t> where_much_was_noise(const TriMesh& mesh,
-                                               const std::vector<std::uint8_t>& found,
-                                               const std::vector<Index>& component) {
-  const std::size_t count = *std::ranges::max_element(component) + 1;
-  std::vector<double> before(count, 0);
-  std::vector<double> dropped(count, 0);
-  double of_all = 0;
-  double dropped_of_all = 0;
+/// [C] feature half-edges of each component. \param component  [F]
+std::vector<double> features_of(const TriMesh& mesh, const std::vector<Index>& component) {
+  std::vector<double> count(*std::ranges::max_element(component) + 1, 0);
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
-    const int is_dropped = found[h] - mesh.is_feature[h];
-    before[component[TriMesh::face_of(h)]] += found[h];
-    dropped[component[TriMesh::face_of(h)]] += is_dropped;
-    of_all += found[h];
-    dropped_of_all += is_dropped;
+    count[component[TriMesh::face_of(h)]] += mesh.is_feature[h];
   }
-  const bool is_much_of_all = dropped_of_all > kMuchDropped * of_all;
-  std::vector<std::uint8_t> is_much(count, 0);
-  for (std::size_t c = 0; c < count; ++c) {
-    const double least = is_much_of_all ? 0 : kMuchDropped * before[c];
-    is_much[c] = dropped[c] > least ? 1 : 0;
+  return count;
+}
+
+/// [C] whether much of what was found in a component was noise, and some of it by the course of its
+/// lines: what else goes may be ends and bits of creases that fade out.
+/// \param found, lines_left, left  [C] features at first, without lines that were noise, and now
+std::vector<std::uint8_t> where_much_was_noise(const std::vector<double>& found,
+                                               const std::vector<double>& lines_left,
+                                               const std::vector<double>& left) {
+  const auto sum = [](const std::vector<double>& counts) {
+    return std::accumulate(counts.begin(), counts.end(), 0.0);
+  };
+  const double least = sum(found) - sum(left) > kMuchDropped * sum(found) ? 0 : kMuchDropped;
+  std::vector<std::uint8_t> is_much;
+  for (std::size_t c = 0; c < found.size(); ++c) {
+    const bool is_enough = found[c] - left[c] > least * found[c];
+    is_much.push_back(is_enough && lines_left[c] < found[c] ? 1 : 0);
   }
   return is_much;
 }
@@ -338,10 +340,10 @@ std::vector<std::uint8_t> where_much_was_noise(const TriMesh& mesh,
 /// A crease that runs across the faces instead of along their edges, as in a height field or a
 /// surface of a grid of values, is chamfered by faces of all shapes. Of their edges some are bent
 /// enough to be found: bits and saws that lines and cells would have to follow.
-/// \param found  [3F] edges flagged before noise was dropped
-Index drop_frayed(TriMesh& mesh, const std::vector<std::uint8_t>& found) {
-  const std::vector<Index> component = face_components(mesh);
-  const std::vector<std::uint8_t> is_rough = where_much_was_noise(mesh, found, component);
+/// \param component  [F]
+/// \param is_rough   [C] 1: such a one
+Index drop_frayed(TriMesh& mesh, const std::vector<Index>& component,
+                  const std::vector<std::uint8_t>& is_rough) {
   find_corners(mesh);
   return drop_pieces(mesh, [&](const std::vector<Index>& piece) {
     if (is_rough[component[TriMesh::face_of(piece.front())]] == 0) return false;
@@ -385,13 +387,17 @@ Index drop_loose(TriMesh& mesh, const std::vector<Index>& degree) {
 }
 
 Index drop_noise(TriMesh& mesh, const std::vector<float>& roughness) {
-  const std::vector<std::uint8_t> found = mesh.is_feature;
+  const std::vector<Index> component = face_components(mesh);
+  const std::vector<double> found = features_of(mesh, component);
   Index dropped = 0;
   while (const Index more = NoisyLines(mesh, roughness).drop()) dropped += more;
+  const std::vector<double> lines_left = features_of(mesh, component);
   dropped += drop_loose_ends(mesh);
   dropped += drop_short_pieces(mesh);
   dropped += drop_lumps(mesh);
-  if (dropped > 0) dropped += drop_frayed(mesh, found);
+  const std::vector<std::uint8_t> is_rough =
+      where_much_was_noise(found, lines_left, features_of(mesh, component));
+  dropped += drop_frayed(mesh, component, is_rough);
   return dropped;
 }
 

@@ -25,9 +25,9 @@ namespace strake::import {
 /// noise. Larger ones go where the mean is 15 degrees or more; and where the mesh is rough as a
 /// whole (`Noise::is_much`) 0.9 and 0.5 are enough.
 ///
-/// Where more than a tenth of the edges of a component went, or any where a tenth of all did,
-/// frayed pieces of it go as well: more than a corner in 20 edges and in 10 % of the diagonal, amid
-/// edges that are bent by a degree in the mean.
+/// Where lines of a component were noise and more than a tenth of its edges went, or any where a
+/// tenth of all did, frayed pieces of it go as well: more than a corner in 20 edges and in 10 % of
+/// the diagonal, amid edges that are bent by a degree in the mean.
 /// \param mesh       corners are found anew
 /// \param roughness  [3F] of feature edges, as `find_features` has it, radians
 /// \return edges whose flag was taken

@@ -167,9 +167,9 @@ class InlayCutter::Cover {
   }
 
   const ComparedSurfaces& surfaces_;
-  SurfaceDistance::Triangles triangles_;   ///< of the patch and the cells around
-  std::vector<std::uint8_t> is_of_patch_;  ///< [triangles] 0 or 1
-  std::vector<Vec3> normals_;              ///< [triangles]
+  SurfaceDistance::Triangles triangles_;    ///< of the patch and the cells around
+  std::vector<std::uint8_t> is_of_patch_;   ///< [triangles] 0 or 1
+  std::vector<Vec3> normals_;               ///< [triangles]
   std::optional<SurfaceDistance> nearest_;  ///< to `triangles_`, where there is a part
   SurfacePart part_;
   std::vector<std::uint8_t> is_inside_;  ///< [V of the part] 0 or 1

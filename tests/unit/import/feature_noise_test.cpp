@@ -14,10 +14,10 @@ namespace {
 
 constexpr double kRough = 10 * std::numbers::pi / 180;
 
-/// A flat grid of 24 x 24 unit cells.
-TriMesh flat_grid() {
-  PolyMesh mesh = shapes::grid(24, 24, [](double, double) { return 0.0; });
-  for (Vec3& p : mesh.positions) p *= 24;
+/// A flat grid of n x n unit cells.
+TriMesh flat_grid(int n = 24) {
+  PolyMesh mesh = shapes::grid(n, n, [](double, double) { return 0.0; });
+  for (Vec3& p : mesh.positions) p *= n;
   return shapes::imported(mesh).mesh;
 }
 
@@ -151,6 +151,42 @@ Index edges_of_spike(double noise) {
 TEST(FeatureNoise, IsALumpAmidNoiseButNoSpikeOnAFlat) {
   EXPECT_GE(edges_of_spike(0), 6);
   EXPECT_EQ(edges_of_spike(0.05), 0);
+}
+
+/// A dome with nine square panels, each of twelve edges with two of one edge that end at corners,
+/// and rough ground along a flight of stairs where that is wanted.
+TriMesh panels(bool with_stairs, std::vector<float>& roughness) {
+  TriMesh mesh = flat_grid(40);
+  for (int i = 0; i < 9; ++i) {
+    const Vec3 at(6 + 12 * (i % 3), 6 + 12 * (i / 3), 0);  // NOLINT(bugprone-integer-division)
+    std::vector<Vec3> loop = {at};
+    for (const Vec3& side : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(-1, 0, 0), Vec3(0, -1, 0)}) {
+      for (int k = 0; k < 3; ++k) loop.emplace_back(loop.back() + side);
+    }
+    draw(mesh, loop);
+    draw(mesh, {at, at - Vec3(1, 0, 0)});
+    draw(mesh, {at + Vec3(3, 3, 0), at + Vec3(4, 3, 0)});
+  }
+  roughness.assign(mesh.halfedge_count(), 0);
+  if (with_stairs) {
+    draw(mesh, stairs(4));
+    for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+      const Vec3& p = mesh.positions[mesh.from(h)];
+      if (p.x() < 6 && p.y() < 6) roughness[h] = float(kRough);
+    }
+  }
+  for (Vec3& p : mesh.positions) p.z() = -(p.head<2>() - Vec2(20, 20)).squaredNorm() / 30;
+  mesh.diagonal *= 2;  // so that slopes make no edge too long to be cut off
+  return mesh;
+}
+
+// Ends that are cut off are no noise, so the rest is not what that leaves of a crease.
+TEST(FeatureNoise, WhatIsLeftIsFrayedOnlyWhereLinesWereNoise) {
+  std::vector<float> roughness;
+  TriMesh designed = panels(false, roughness);
+  EXPECT_EQ(import::drop_noise(designed, roughness), 2 * 9);
+  TriMesh noisy = panels(true, roughness);
+  EXPECT_GT(import::drop_noise(noisy, roughness), 100);
 }
 
 }  // namespace
