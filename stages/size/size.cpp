@@ -63,7 +63,7 @@ std::vector<std::array<Index, 2>> neighbour_cells(const PolyMesh& faces) {
 
 /// Errors of cells and how the surface bends away from them, averaged.
 struct Averaged {
-  std::vector<double> log_error;  ///< [F]
+  std::vector<double> log_error;  ///< [F] of the error as a share of the diagonal
   std::vector<Mat3> bend;         ///< [F]
 };
 
@@ -71,8 +71,8 @@ Averaged averaged_errors(const PolyMesh& faces, const ErrorMap& errors, double d
   Averaged result;
   for (const CellError& cell : errors.cells) {
     // Between the two measures: one spot should not decide for a cell, nor be lost in it.
-    const double error = std::sqrt(cell.rms * cell.largest);
-    result.log_error.push_back(std::log(std::max(error, kSmallestError * diagonal)));
+    const double error = std::sqrt(cell.rms * cell.largest) / diagonal;
+    result.log_error.push_back(std::log(std::max(error, kSmallestError)));
     result.bend.push_back(cell.bend);
   }
   const std::vector<std::array<Index, 2>> neighbours = neighbour_cells(faces);
@@ -116,8 +116,9 @@ SizeResult size_from_errors(const TriMesh& mesh, const PrincipalField& field, co
     sum += vertices * log_error[w];
     count += vertices;
   }
-  const double goal =
-      options.tolerance ? std::log(options.tolerance->resolve(mesh.diagonal)) : sum / count;
+  const double goal = options.tolerance
+                          ? std::log(options.tolerance->resolve(mesh.diagonal) / mesh.diagonal)
+                          : sum / count;
 
   const double feedback =
       options.feedback.value_or(density != nullptr ? kFeedbackOfDensity : kFeedback);
@@ -141,7 +142,7 @@ SizeResult size_from_errors(const TriMesh& mesh, const PrincipalField& field, co
   }
   result.report.set("size.rms", errors.rms);
   result.report.set("size.largest", errors.largest);
-  result.report.set("size.goal", std::exp(goal));
+  result.report.set("size.goal", std::exp(goal) * mesh.diagonal);
   return result;
 }
 

@@ -131,13 +131,14 @@ std::pair<double, Spacing> SpacingModel::for_count(double count,
   constexpr int kMostRounds = 12;
   constexpr double kAccuracy = 0.02;
   const double unit = size_ != nullptr ? 1e3 : mesh_.diagonal;
-  const double least = std::log(1e-9 * unit);
-  const double largest = std::log(0.2 * unit);
+  const auto tolerance = [unit](double logarithm) { return unit * std::exp(logarithm); };
+  const double least = std::log(1e-9);
+  const double largest = std::log(0.2);
   double low = least;
   double high = largest;
   for (int round = 0; round < 10; ++round) {  // without grading: cheap, and not far off
     const double middle = 0.5 * (low + high);
-    const Spacing spacing = ungraded(std::exp(middle), limits);
+    const Spacing spacing = ungraded(tolerance(middle), limits);
     (predicted_vertices(areas_, spacing) > count ? low : high) = middle;
   }
   // Counts fall like a power of the tolerance: secant steps between logarithms from there, kept
@@ -149,10 +150,10 @@ std::pair<double, Spacing> SpacingModel::for_count(double count,
   double last_at = 0;
   double last_error = 0;
   for (int round = 0;; ++round) {
-    Spacing spacing = for_tolerance(std::exp(at), limits);
+    Spacing spacing = for_tolerance(tolerance(at), limits);
     const double error = std::log(predicted_vertices(areas_, spacing) / count);
     if (std::abs(error) < kAccuracy || round == kMostRounds) {
-      return {std::exp(at), std::move(spacing)};
+      return {tolerance(at), std::move(spacing)};
     }
     (error > 0 ? low : high) = at;
     if (round > 0 && at != last_at) {
