@@ -232,17 +232,12 @@ bool is_junction(const TriMesh& mesh, Index vertex) {
 
 Vec3 BorderCourse::offset_at(const TriMesh& mesh, const SurfacePoint& point) const {
   if (offset.empty()) return Vec3::Zero();
-  for (int i = 0; i < 3; ++i) {
-    const Index h = 3 * point.face + i;
-    if (point.barycentric[i] >= 1 - kOnEdge) return offset[mesh.from(h)];
-  }
-  for (int i = 0; i < 3; ++i) {
-    const Index h = 3 * point.face + i;
-    if (point.barycentric[(i + 2) % 3] >= kOnEdge || !mesh.is_boundary(h)) continue;
-    return point.barycentric[i] * offset[mesh.from(h)] +
-           point.barycentric[(i + 1) % 3] * offset[mesh.to(h)];
-  }
-  return Vec3::Zero();
+  const Index corner = corner_at(point);
+  if (corner != kNone) return offset[mesh.from(corner)];
+  const Index h = edge_at(point, [&](Index side) { return mesh.is_boundary(side); });
+  if (h == kNone) return Vec3::Zero();
+  return point.barycentric[h % 3] * offset[mesh.from(h)] +
+         share_along(point, h) * offset[mesh.to(h)];
 }
 
 BorderCourse border_course(const TriMesh& mesh, const std::vector<double>& size, double most_off) {

@@ -16,8 +16,6 @@
 namespace strake {
 namespace {
 
-/// Barycentric coordinates below this are none.
-constexpr double kNothing = 1e-9;
 /// Least cosine between the normals of two faces that are the same place of the surface.
 constexpr double kSameWay = 0.5;
 /// Barycentric coordinate of a foot beside a line that it does not belong to.
@@ -36,16 +34,13 @@ class Lift {
 
   /// \param at  on the coarser mesh  \param place  that the foot is of, relative to the origin
   [[nodiscard]] SurfacePoint foot(const SurfacePoint& at, const Vec3& place) const {
-    for (int i = 0; i < 3; ++i) {
-      const Index vertex = parent_of(3 * at.face + i);
-      if (at.barycentric[i] > 1 - kNothing && is_on_line(vertex)) return at_vertex(vertex);
+    const Index corner = corner_at(at);
+    if (corner != kNone && is_on_line(parent_of(corner))) {
+      return point_at_vertex(mesh_, parent_of(corner));
     }
-    for (int i = 0; i < 3; ++i) {
-      const Index h = 3 * at.face + i;
-      if (at.barycentric[(i + 2) % 3] >= kNothing || !coarse_.is_barrier(h)) continue;
-      return on_edge(parent_of(h), parent_of(TriMesh::next(h)), at.barycentric[(i + 1) % 3]);
-    }
-    return nearest(at, place);
+    const Index h = edge_at(at, [&](Index side) { return coarse_.is_barrier(side); });
+    if (h == kNone) return nearest(at, place);
+    return on_edge(parent_of(h), parent_of(TriMesh::next(h)), share_along(at, h));
   }
 
  private:
@@ -58,13 +53,6 @@ class Lift {
     bool is = mesh_.is_corner[vertex] != 0;
     for_each_outgoing(mesh_, vertex, [&](Index h) { is = is || mesh_.is_barrier(h); });
     return is;
-  }
-
-  [[nodiscard]] SurfacePoint at_vertex(Index vertex) const {
-    const Index h = mesh_.vertex_out[vertex];
-    SurfacePoint point{TriMesh::face_of(h), {0, 0, 0}};
-    point.barycentric[h % 3] = 1;
-    return point;
   }
 
   /// \param share  of the way from one end to the other
@@ -94,7 +82,7 @@ class Lift {
           return f == known_face ||
                  (normals_[f].dot(side) > kSameWay && components_.has_both(f, known_face));
         });
-    SurfacePoint point = found.triangle == kNone ? at_vertex(known)
+    SurfacePoint point = found.triangle == kNone ? point_at_vertex(mesh_, known)
                                                  : SurfacePoint{found.triangle, found.barycentric};
     // It may touch a line, but is not of it.
     for (double& share : point.barycentric) share = (1 - 3 * kBesideLine) * share + kBesideLine;
@@ -117,10 +105,8 @@ QuadMesh lift_quads(const TriMesh& mesh, const TriMesh& coarse, const QuadMesh& 
   lifted.mesh_id = mesh.id;
   VertexProvenance& provenance = lifted.provenance;
   tbb::parallel_for(Index{0}, quads.mesh.vertex_count(), [&](Index v) {
-    const SurfacePoint foot = lift.foot({quads.provenance.face[v], quads.provenance.barycentric[v]},
-                                        quads.mesh.positions[v] - mesh.origin);
-    provenance.face[v] = foot.face;
-    provenance.barycentric[v] = foot.barycentric;
+    set_foot(provenance, v,
+             lift.foot(foot_of(quads.provenance, v), quads.mesh.positions[v] - mesh.origin));
   });
   lifted.mesh.attributes = carry_attributes(mesh, lifted.mesh, provenance);
   return lifted;

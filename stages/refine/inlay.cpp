@@ -248,7 +248,7 @@ bool InlayCutter::add_band(std::span<const Index> outer, std::span<const Index> 
   std::vector<End> outer_ends;
   for (const Index corner : outer) {
     const Index vertex = inlay.outline[corner];
-    outer_ends.push_back({foot_of(vertex), surfaces_.positions()[vertex]});
+    outer_ends.push_back({foot_of(quads_.provenance, vertex), surfaces_.positions()[vertex]});
   }
   std::vector<End> inner_ends;
   for (const Index corner : inner) {

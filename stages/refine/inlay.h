@@ -50,9 +50,6 @@ class InlayCutter {
   struct Patch;
   class Cover;
 
-  [[nodiscard]] SurfacePoint foot_of(Index vertex) const {
-    return {quads_.provenance.face[vertex], quads_.provenance.barycentric[vertex]};
-  }
   [[nodiscard]] std::optional<Patch> patch_of(std::set<Index> cells) const;
   [[nodiscard]] std::optional<Inlay> whole_component(std::vector<Index> cells) const;
   [[nodiscard]] Index neighbour(Index cell, Index a, Index b) const;

@@ -24,13 +24,6 @@ constexpr double kLongestLine = 2;
 /// dividing an edge in the middle leaves better cells, and nothing that lies across what follows.
 constexpr double kSharpTurn = std::numbers::pi / 3;
 
-SurfacePoint point_at(const SurfaceLines::Place& place) {
-  SurfacePoint point{TriMesh::face_of(place.halfedge), {0, 0, 0}};
-  point.barycentric[place.halfedge % 3] = 1 - place.lambda;
-  point.barycentric[(place.halfedge + 1) % 3] = place.lambda;
-  return point;
-}
-
 }  // namespace
 
 SurfacePoints::SurfacePoints(const TriMesh& mesh)
@@ -94,7 +87,7 @@ std::vector<SurfacePoint> SurfacePoints::jags_between(const SurfacePoint& from,
   }
   std::vector<SurfacePoint> jags;
   if (!turns_left || !turns_right) return jags;
-  for (const std::size_t i : corners) jags.push_back(point_at(line[i]));
+  for (const std::size_t i : corners) jags.push_back(point_along(line[i].halfedge, line[i].lambda));
   return jags;
 }
 
@@ -107,7 +100,7 @@ SurfacePoint SurfacePoints::split_of(const std::vector<SurfaceLines::Place>& lin
   // Where the half-edge changes, the piece lies on the next one.
   const SurfaceLines::Place& end = line[piece + 1];
   const double start = line[piece].halfedge == end.halfedge ? line[piece].lambda : 0;
-  return point_at({end.halfedge, start + share * (end.lambda - start)});
+  return point_along(end.halfedge, start + share * (end.lambda - start));
 }
 
 std::vector<Vec3> SurfacePoints::positions(const std::vector<SurfaceLines::Place>& line) const {

@@ -19,8 +19,7 @@ bool is_turned_over(const SurfacePoints& points, const QuadMesh& quads, Index f)
   Vec3 normal = Vec3::Zero();
   double longest = 0;
   for (std::size_t i = 0; i < face.size(); ++i) {
-    normal +=
-        points.normal({quads.provenance.face[face[i]], quads.provenance.barycentric[face[i]]});
+    normal += points.normal(foot_of(quads.provenance, face[i]));
     const Vec3 side =
         quads.mesh.positions[face[(i + 1) % face.size()]] - quads.mesh.positions[face[i]];
     longest = std::max(longest, side.norm());

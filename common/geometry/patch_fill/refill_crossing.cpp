@@ -206,9 +206,7 @@ class Refilling {
     const auto found = face_of_side_.find(side_key(a, b));
     return found == face_of_side_.end() ? kNone : found->second;
   }
-  [[nodiscard]] SurfacePoint foot(Index v) const {
-    return {quads_.provenance.face[v], quads_.provenance.barycentric[v]};
-  }
+  [[nodiscard]] SurfacePoint foot(Index v) const { return foot_of(quads_.provenance, v); }
   /// Whether an edge runs along a feature or boundary line.
   [[nodiscard]] bool is_on_line(Index a, Index b) const {
     return lines_.has_along(foot(a), foot(b));
