@@ -34,15 +34,12 @@ bool drop_some(const SurfacePoints& points, QuadMesh& quads) {
   const PolyEdges edges = collect_edges(mesh);
   std::vector<Index> inner_sides(static_cast<std::size_t>(mesh.face_count()), 0);
   std::vector<Index> beyond(inner_sides.size(), kNone);
-  for (Index e = 0; e < edges.edge_count(); ++e) {
-    const std::span<const Index> sides = edges.sides_of(e);
-    if (sides.size() != 2) continue;
-    const Index f = edges.corner_face[sides[0]];
-    const Index g = edges.corner_face[sides[1]];
+  const std::vector<Index> opposite = opposite_sides(edges);
+  for (std::size_t c = 0; c < opposite.size(); ++c) {
+    if (opposite[c] == kNone) continue;
+    const Index f = edges.corner_face[c];
     ++inner_sides[f];
-    ++inner_sides[g];
-    beyond[f] = g;
-    beyond[g] = f;
+    beyond[f] = edges.corner_face[opposite[c]];
   }
   PolyMesh kept;
   std::vector<char> stays(inner_sides.size(), 0);  // 1: beside one that goes

@@ -431,7 +431,7 @@ FAULTS = [
           "test_fit", "^Fit"),
     Fault("two merged pairs take two faces from one vertex",
           "stages/refine/merge_places.cpp",
-          "return is_near_[v] == 0 && faces_of_[v].size()", "return faces_of_[v].size()",
+          "return is_near_[v] == 0 && around_.faces(v).size()", "return around_.faces(v).size()",
           "test_refine", "^MergePlaces"),
     Fault("vertices at one place are merged also where that pinches the surface",
           "stages/refine/merge_places.cpp",
