@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "common/geometry/angles.h"
 #include "common/geometry/frames.h"
@@ -14,7 +13,7 @@ namespace {
 
 /// Turn to and fro of single vertices, in the mean over some on each side, from which on a
 /// boundary is ragged.
-constexpr double kRaggedTurn = 10 * std::numbers::pi / 180;
+constexpr double kRaggedTurn = 10 * kDegree;
 constexpr Index kRaggedReach = 8;
 /// Edges to both sides that a direction is taken over, and the largest share of a loop.
 constexpr Index kDirectionReach = 4;
@@ -35,10 +34,9 @@ constexpr double kLoopShare = 1.0 / 12;
 constexpr double kMostOff = 0.5;
 /// Of the diagonal: what is farther off is seen, however large cells are.
 constexpr double kMostSeen = 0.0075;
-/// A corner of the course turns by more than this, over this many times the reach of the mean to
-/// both sides.
+/// The turn of a corner of the course is that over this many times the reach of the mean to both
+/// sides.
 constexpr double kCornerReach = 2;
-constexpr double kSharpTurn = 50 * std::numbers::pi / 180;
 
 /// One loop of the boundary, the surface on its left.
 class BorderLoop {

@@ -6,12 +6,6 @@
 #include "common/geometry/topology/vertex_ring.h"
 
 namespace strake {
-namespace {
-
-/// A line runs along a straight way that is this much shorter, at most.
-constexpr double kLongestLine = 2;
-
-}  // namespace
 
 Vec3 SurfaceLines::position(const Place& at) const {
   const Vec3& a = mesh_.positions[mesh_.from(at.halfedge)];

@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "common/geometry/angles.h"
 #include "common/geometry/poly_topology/face_shape.h"
@@ -15,7 +14,7 @@ namespace strake::fitting {
 namespace {
 
 /// Corners above this are the straight side of a T-joint.
-constexpr double kJointAngle = 150 * std::numbers::pi / 180;
+constexpr double kJointAngle = 150 * kDegree;
 /// What it costs to leave the field's direction, to bend, and to leave the middle between
 /// neighbours; for the same angle.
 constexpr double kAlong = 150;

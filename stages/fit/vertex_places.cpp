@@ -17,8 +17,6 @@ namespace {
 
 /// A vertex nearer to the boundary than this share of the diagonal is on it.
 constexpr double kOnBoundary = 1e-9;
-/// A foot stays on a sheet whose normal is within 60 degrees of the last one.
-constexpr double kLeastAgreement = 0.5;
 /// Vertices of the input's boundary that stand for what lies between two of the result's.
 constexpr std::size_t kMostBetween = 4;
 
@@ -271,7 +269,7 @@ void VertexPlaces::update_feet() {
       const Vec3 side = face_normals_[face];
       const ClosestPoint nearest = surface_.closest_if(positions_[v], bound, [&](Index f) {
         return f == face ||
-               (face_normals_[f].dot(side) > kLeastAgreement && components_.has_both(f, face));
+               (face_normals_[f].dot(side) > kSameSheet && components_.has_both(f, face));
       });
       feet_[v] = {nearest.triangle, nearest.barycentric};
     }

@@ -18,6 +18,7 @@
 #include "stages/import/divide_long_edges.h"
 #include "stages/import/features.h"
 #include "stages/import/flat_faces.h"
+#include "stages/import/gaps.h"
 #include "stages/import/listed_edges.h"
 #include "stages/import/noise.h"
 #include "stages/import/openings.h"
@@ -177,10 +178,9 @@ void report_near_borders(const import::NearBorders& near, double diagonal, Repor
   report.set("borders.near_edges", near.edges);
   report.set("borders.near_widest", near.widest / diagonal);
   if (near.edges == 0) return;
-  constexpr double kTouching = 1e-9;
   const bool is_one = near.edges == 1;
   const std::string where =
-      near.widest <= kTouching * diagonal
+      near.widest <= import::kCoincident * diagonal
           ? fmt::format("touch{} another border", is_one ? "es" : "")
           : fmt::format("{} within {:.2g} % of the diagonal of another border",
                         is_one ? "lies" : "lie", 100 * near.widest / diagonal);

@@ -16,8 +16,6 @@
 namespace strake {
 namespace {
 
-/// Least cosine between the normals of two faces that are the same place of the surface.
-constexpr double kSameWay = 0.5;
 /// Barycentric coordinate of a foot beside a line that it does not belong to.
 constexpr double kBesideLine = 1e-6;
 
@@ -80,7 +78,7 @@ class Lift {
     const ClosestPoint found =
         surface_.closest_if(place, (place - mesh_.positions[known]).norm(), [&](Index f) {
           return f == known_face ||
-                 (normals_[f].dot(side) > kSameWay && components_.has_both(f, known_face));
+                 (normals_[f].dot(side) > kSameSheet && components_.has_both(f, known_face));
         });
     SurfacePoint point = found.triangle == kNone ? point_at_vertex(mesh_, known)
                                                  : SurfacePoint{found.triangle, found.barycentric};

@@ -17,12 +17,10 @@ namespace {
 
 /// A way joins two points where it is at most this many times their distance.
 constexpr double kLongestWay = 4;
-/// Likewise along a feature or boundary line.
-constexpr double kLongestLine = 2;
 
 /// A jagged boundary turns by at least this much, radians, to both sides. Where it turns by less,
 /// dividing an edge in the middle leaves better cells, and nothing that lies across what follows.
-constexpr double kSharpTurn = std::numbers::pi / 3;
+constexpr double kJagTurn = std::numbers::pi / 3;
 
 }  // namespace
 
@@ -50,7 +48,8 @@ SurfacePoint SurfacePoints::nearest(const Vec3& p, const Vec3& normal, double re
 SurfacePoint SurfacePoints::between(const SurfacePoint& a, const SurfacePoint& b,
                                     const Vec3& middle, const Vec3& normal) const {
   const double distance = (place_of(mesh_, a) - place_of(mesh_, b)).norm();
-  const std::vector<SurfaceLines::Place> line = lines_.way_between(a, b, kLongestLine * distance);
+  const std::vector<SurfaceLines::Place> line =
+      lines_.way_between(a, b, SurfaceLines::kLongestLine * distance);
   if (!line.empty() && !mesh_.is_boundary(line.back().halfedge)) return split_of(line);
   const auto cut = split_of_section(mesh_, a, b, normal, kLongestWay * distance);
   if (cut) return *cut;
@@ -80,7 +79,7 @@ std::vector<SurfacePoint> SurfacePoints::jags_between(const SurfacePoint& from,
     const Vec3& p = places[corners[i]];
     const Vec3& before = i > 0 ? places[corners[i - 1]] : places.front();
     const Vec3& after = i + 1 < corners.size() ? places[corners[i + 1]] : places.back();
-    if (angle_between(p - before, after - p) < kSharpTurn) continue;
+    if (angle_between(p - before, after - p) < kJagTurn) continue;
     const bool is_left = (p - before).cross(after - p).dot(normal) > 0;
     turns_left = turns_left || is_left;
     turns_right = turns_right || !is_left;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/geometry/angles.h"
 #include "common/geometry/frames.h"
 #include "common/geometry/line_chord.h"
 #include "common/geometry/mesh_measures.h"
@@ -12,7 +13,7 @@ namespace {
 
 /// Edges that one step may cross: around a needle it would go on for ever.
 constexpr int kMostCrossings = 4096;
-const double kFlattestCrossing = std::sin(20 * M_PI / 180);  ///< with a feature line
+const double kFlattestCrossing = std::sin(20 * kDegree);  ///< with a feature line
 
 }  // namespace
 

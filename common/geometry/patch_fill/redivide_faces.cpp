@@ -19,7 +19,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMostBetween = 3;
 /// Farthest that an angle of a quad may be from a right one.
-constexpr double kMostFromRightAngle = 78 * std::numbers::pi / 180;
+constexpr double kMostFromRightAngle = 78 * kDegree;
 /// Least cosine of the turn along either diagonal of a quad.
 constexpr double kLeastOfBothEvenness = 0.5;
 /// Weight of the squared deviation of a number of edges from four, beside those of angles, rad^2.
