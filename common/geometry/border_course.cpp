@@ -221,9 +221,7 @@ void drop_wide_teeth(const BorderLoop& loop, const std::vector<double>& size,
 
 /// Whether features meet the boundary at a vertex.
 bool is_junction(const TriMesh& mesh, Index vertex) {
-  bool is = false;
-  for_each_outgoing(mesh, vertex, [&](Index h) { is = is || mesh.is_feature[h] != 0; });
-  return is;
+  return any_outgoing(mesh, vertex, [&](Index h) { return mesh.is_feature[h] != 0; });
 }
 
 }  // namespace

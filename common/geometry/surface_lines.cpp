@@ -40,13 +40,8 @@ bool SurfaceLines::is_corner(const SurfacePoint& point) const {
 Index SurfaceLines::next_on_line(Index h) const {
   const Index v = mesh_.to(h);
   if (mesh_.is_corner[v] != 0) return kNone;
-  const Index first = mesh_.vertex_out[v];
-  for (Index out = first; out != kNone;) {
-    if (mesh_.is_barrier(out) && out != mesh_.twin[h]) return out;
-    out = mesh_.rotate_ccw(out);
-    if (out == first) break;
-  }
-  return kNone;
+  return find_outgoing(mesh_, v,
+                       [&](Index out) { return mesh_.is_barrier(out) && out != mesh_.twin[h]; });
 }
 
 std::vector<SurfaceLines::Place> SurfaceLines::way(const Place& from, const SurfacePoint& to,

@@ -48,24 +48,21 @@ class Lift {
   }
 
   [[nodiscard]] bool is_on_line(Index vertex) const {
-    bool is = mesh_.is_corner[vertex] != 0;
-    for_each_outgoing(mesh_, vertex, [&](Index h) { is = is || mesh_.is_barrier(h); });
-    return is;
+    return mesh_.is_corner[vertex] != 0 ||
+           any_outgoing(mesh_, vertex, [&](Index h) { return mesh_.is_barrier(h); });
   }
 
   /// \param share  of the way from one end to the other
   [[nodiscard]] SurfacePoint on_edge(Index from, Index to, double share) const {
-    SurfacePoint point;
-    for_each_outgoing(mesh_, from, [&](Index h) {
-      // Of a face that has the edge as the one or the other of its two sides there.
-      if (point.face != kNone) return;
-      const Index last = TriMesh::prev(h);
-      const bool is_out = mesh_.to(h) == to;
-      if (!is_out && mesh_.from(last) != to) return;
-      point.face = TriMesh::face_of(h);
-      point.barycentric[h % 3] = 1 - share;
-      point.barycentric[is_out ? TriMesh::next(h) % 3 : last % 3] = share;
-    });
+    const auto is_next = [&](Index h) { return mesh_.from(TriMesh::prev(h)) == to; };
+    // Of a face that has the edge as the one or the other of its two sides there.
+    const Index h =
+        find_outgoing(mesh_, from, [&](Index out) { return mesh_.to(out) == to || is_next(out); });
+    if (h == kNone) return {};
+    if (mesh_.to(h) == to) return point_along(h, share);
+    SurfacePoint point{TriMesh::face_of(h), {0, 0, 0}};
+    point.barycentric[h % 3] = 1 - share;
+    point.barycentric[TriMesh::prev(h) % 3] = share;
     return point;
   }
 

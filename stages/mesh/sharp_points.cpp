@@ -37,10 +37,8 @@ std::vector<Index> sharp_points(const TriMesh& mesh) {
   std::vector<Index> points;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     if (mesh.is_corner[v] == 0) continue;
-    bool is_on_line = false;
-    for_each_outgoing(mesh, v, [&](Index h) {
-      is_on_line = is_on_line || mesh.is_barrier(h) || mesh.is_barrier(TriMesh::prev(h));
-    });
+    const bool is_on_line = any_outgoing(
+        mesh, v, [&](Index h) { return mesh.is_barrier(h) || mesh.is_barrier(TriMesh::prev(h)); });
     if (!is_on_line) points.push_back(v);
   }
   return points;
