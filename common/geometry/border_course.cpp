@@ -34,8 +34,7 @@ constexpr double kLoopShare = 1.0 / 12;
 constexpr double kMostOff = 0.5;
 /// Of the diagonal: what is farther off is seen, however large cells are.
 constexpr double kMostSeen = 0.0075;
-/// The turn of a corner of the course is that over this many times the reach of the mean to both
-/// sides.
+/// How far to both sides a corner of the course turns, in reaches of the mean.
 constexpr double kCornerReach = 2;
 
 /// One loop of the boundary, the surface on its left.

@@ -147,12 +147,14 @@ class SharpPoints {
     return found == faces.end() ? kNone : *found;
   }
 
-  /// Corners of the faces around a vertex that are beside it.
+  /// Corners of the faces around a vertex that come after it, as they were: faces that are divided
+  /// since may have the vertex no more.
   [[nodiscard]] std::vector<Index> neighbours(Index v) const {
     std::vector<Index> result;
     for (const Index f : faces_around_[v]) {
-      const auto i = std::ranges::find(faces_[f], v) - faces_[f].begin();
-      result.push_back(faces_[f][(static_cast<std::size_t>(i) + 1) % faces_[f].size()]);
+      const std::span<const Index> face = quads_.mesh.face(f);
+      const auto i = static_cast<std::size_t>(std::ranges::find(face, v) - face.begin());
+      result.push_back(face[(i + 1) % face.size()]);
     }
     return result;
   }
