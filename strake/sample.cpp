@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/artifact/meshfile/mesh_writer.h"
+#include "common/core/text.h"
 #include "common/geometry/samples/samples.h"
 #include "strake/commands.h"
 
@@ -33,9 +34,9 @@ void add_sample_command(CLI::App& app, Action& chosen) {
       "Examples:\n  strake sample part -o part.ply\n  strake sample torus --faces 10000 -o "
       "torus.obj");
   const auto sample = std::make_shared<SampleCommand>();
-  std::string kinds;
-  for (const std::string& name : sample_names()) kinds += (kinds.empty() ? "" : "|") + name;
-  command->add_option("kind", sample->kind, "the surface")->type_name(kinds)->required();
+  command->add_option("kind", sample->kind, "the surface")
+      ->type_name(join_words(sample_names(), "|"))
+      ->required();
   command->add_option("-o,--output", sample->output, "file to write: .obj, .ply or .off")
       ->type_name("FILE")
       ->required();

@@ -8,6 +8,7 @@
 
 #include "common/core/error.h"
 #include "common/core/number_text.h"
+#include "common/core/text.h"
 
 namespace strake {
 namespace {
@@ -18,12 +19,6 @@ std::optional<Length> parse_length(std::string_view text) {
   const auto value = parse_number(text);
   if (!value) return std::nullopt;
   return Length{relative ? *value / 100 : *value, relative};
-}
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
 }
 
 /// A limit as people write it: the shortest text of a hundred million is 1e+08.
@@ -71,7 +66,7 @@ class Parser {
   void operator()(std::string* target) const {
     const auto& choices = option_.choices;
     if (!choices.empty() && std::find(choices.begin(), choices.end(), text_) == choices.end()) {
-      refuse("one of " + joined(choices));
+      refuse("one of " + join_words(choices));
     }
     *target = std::string(text_);
   }

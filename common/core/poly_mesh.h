@@ -24,6 +24,13 @@ struct PolyMesh {
   [[nodiscard]] std::span<const Index> face(Index f) const {
     return {corners.data() + offsets[f], static_cast<std::size_t>(offsets[f + 1] - offsets[f])};
   }
+  /// The corner after one of a face's corners, and the one before it.
+  [[nodiscard]] Index next_corner(Index f, Index corner) const {
+    return corner + 1 == offsets[f + 1] ? offsets[f] : corner + 1;
+  }
+  [[nodiscard]] Index previous_corner(Index f, Index corner) const {
+    return (corner == offsets[f] ? offsets[f + 1] : corner) - 1;
+  }
   void add_face(std::span<const Index> vertices) {
     corners.insert(corners.end(), vertices.begin(), vertices.end());
     offsets.push_back(static_cast<Index>(corners.size()));

@@ -10,6 +10,8 @@
 namespace strake {
 
 constexpr double kDegree = std::numbers::pi / 180;  ///< radians
+/// A line that turns by more than this has a corner there, radians.
+constexpr double kSharpTurn = 50 * kDegree;
 
 /// The angle between two ways of any lengths, radians in [0, pi]; exact for small angles and for
 /// those near pi, too. 0 where one of them has no length.

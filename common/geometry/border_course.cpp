@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "common/geometry/angles.h"
 #include "common/geometry/frames.h"
@@ -14,7 +13,7 @@ namespace {
 
 /// Turn to and fro of single vertices, in the mean over some on each side, from which on a
 /// boundary is ragged.
-constexpr double kRaggedTurn = 10 * std::numbers::pi / 180;
+constexpr double kRaggedTurn = 10 * kDegree;
 constexpr Index kRaggedReach = 8;
 /// Edges to both sides that a direction is taken over, and the largest share of a loop.
 constexpr Index kDirectionReach = 4;
@@ -35,10 +34,8 @@ constexpr double kLoopShare = 1.0 / 12;
 constexpr double kMostOff = 0.5;
 /// Of the diagonal: what is farther off is seen, however large cells are.
 constexpr double kMostSeen = 0.0075;
-/// A corner of the course turns by more than this, over this many times the reach of the mean to
-/// both sides.
+/// How far to both sides a corner of the course turns, in reaches of the mean.
 constexpr double kCornerReach = 2;
-constexpr double kSharpTurn = 50 * std::numbers::pi / 180;
 
 /// One loop of the boundary, the surface on its left.
 class BorderLoop {
@@ -223,26 +220,19 @@ void drop_wide_teeth(const BorderLoop& loop, const std::vector<double>& size,
 
 /// Whether features meet the boundary at a vertex.
 bool is_junction(const TriMesh& mesh, Index vertex) {
-  bool is = false;
-  for_each_outgoing(mesh, vertex, [&](Index h) { is = is || mesh.is_feature[h] != 0; });
-  return is;
+  return any_outgoing(mesh, vertex, [&](Index h) { return mesh.is_feature[h] != 0; });
 }
 
 }  // namespace
 
 Vec3 BorderCourse::offset_at(const TriMesh& mesh, const SurfacePoint& point) const {
   if (offset.empty()) return Vec3::Zero();
-  for (int i = 0; i < 3; ++i) {
-    const Index h = 3 * point.face + i;
-    if (point.barycentric[i] >= 1 - kOnEdge) return offset[mesh.from(h)];
-  }
-  for (int i = 0; i < 3; ++i) {
-    const Index h = 3 * point.face + i;
-    if (point.barycentric[(i + 2) % 3] >= kOnEdge || !mesh.is_boundary(h)) continue;
-    return point.barycentric[i] * offset[mesh.from(h)] +
-           point.barycentric[(i + 1) % 3] * offset[mesh.to(h)];
-  }
-  return Vec3::Zero();
+  const Index corner = corner_at(point);
+  if (corner != kNone) return offset[mesh.from(corner)];
+  const Index h = edge_at(point, [&](Index side) { return mesh.is_boundary(side); });
+  if (h == kNone) return Vec3::Zero();
+  return point.barycentric[h % 3] * offset[mesh.from(h)] +
+         share_along(point, h) * offset[mesh.to(h)];
 }
 
 BorderCourse border_course(const TriMesh& mesh, const std::vector<double>& size, double most_off) {

@@ -8,15 +8,10 @@
 #include <span>
 
 #include "common/geometry/surface_point.h"
+#include "common/geometry/topology/vertex_ring.h"
 
 namespace strake {
 namespace {
-
-/// A point of the surface in one of the triangles that it belongs to.
-struct Place {
-  Index face = kNone;
-  std::array<double, 3> barycentric{};
-};
 
 /// Finds the triangles in which the corners of a result lie.
 class CornerPlaces {
@@ -25,48 +20,38 @@ class CornerPlaces {
       : mesh_(mesh), result_(result), places_(places) {}
 
   /// All triangles that the vertex belongs to.
-  void find(Index vertex, std::vector<Place>& found) const {
-    const Place own = {places_.face[vertex], places_.barycentric[vertex]};
-    const auto& b = own.barycentric;
-    found.assign(1, own);
-    for (int i = 0; i < 3; ++i) {
-      const Index corner = 3 * own.face + i;
-      if (b[(i + 1) % 3] <= kOnEdge && b[(i + 2) % 3] <= kOnEdge) return find_fan(corner, found);
+  void find(Index vertex, std::vector<SurfacePoint>& found) const {
+    const SurfacePoint own = foot_of(places_, vertex);
+    found.clear();
+    const Index corner = corner_at(own);
+    if (corner != kNone) {
+      for_each_outgoing(mesh_, mesh_.from(corner),
+                        [&](Index h) { found.push_back(point_along(h, 0)); });
+      return;
     }
-    for (int i = 0; i < 3; ++i) {
-      const Index twin = mesh_.twin[3 * own.face + i];
-      if (b[(i + 2) % 3] > kOnEdge || twin == kNone) continue;
-      Place other = {TriMesh::face_of(twin), {}};
-      other.barycentric[twin % 3] = b[(i + 1) % 3];
-      other.barycentric[TriMesh::next(twin) % 3] = b[i];
-      found.push_back(other);
-    }
+    found.push_back(own);
+    const Index inner = edge_at(own, [&](Index h) { return !mesh_.is_boundary(h); });
+    if (inner == kNone) return;
+    const Index twin = mesh_.twin[inner];
+    SurfacePoint& other = found.emplace_back(SurfacePoint{TriMesh::face_of(twin), {0, 0, 0}});
+    other.barycentric[twin % 3] = share_along(own, inner);
+    other.barycentric[TriMesh::next(twin) % 3] = own.barycentric[inner % 3];
   }
 
   /// The one of these triangles on which corner number `i` of face `f` lies.
-  [[nodiscard]] const Place& choose(Index f, int i, const std::vector<Place>& among) const {
+  [[nodiscard]] const SurfacePoint& choose(Index f, int i,
+                                           const std::vector<SurfacePoint>& among) const {
     if (among.size() == 1) return among.front();
     const Vec3 inwards = bisector(result_.face(f), i);
-    const auto score = [&](const Place& place) { return support(place, inwards); };
-    const Place* best = &among.front();
-    for (const Place& place : among) {
+    const auto score = [&](const SurfacePoint& place) { return support(place, inwards); };
+    const SurfacePoint* best = &among.front();
+    for (const SurfacePoint& place : among) {
       if (score(place) > score(*best)) best = &place;
     }
     return *best;
   }
 
  private:
-  void find_fan(Index corner, std::vector<Place>& found) const {
-    found.clear();
-    const Index start = mesh_.vertex_out[mesh_.from(corner)];
-    Index h = start;
-    do {
-      Place& place = found.emplace_back(Place{TriMesh::face_of(h), {}});
-      place.barycentric[h % 3] = 1;
-      h = mesh_.rotate_ccw(h);
-    } while (h != kNone && h != start);
-  }
-
   /// Direction from a corner into its face, halfway between its edges.
   [[nodiscard]] Vec3 bisector(std::span<const Index> face, int i) const {
     const int count = static_cast<int>(face.size());
@@ -80,14 +65,14 @@ class CornerPlaces {
 
   /// How far a unit direction from a point on a triangle's outline leads into the triangle, and not
   /// away from its plane: along an edge where three sides of a cube meet two are equally far in.
-  [[nodiscard]] double support(const Place& place, const Vec3& direction) const {
+  [[nodiscard]] double support(const SurfacePoint& place, const Vec3& direction) const {
     const auto& corners = mesh_.faces[place.face];
     const auto at = [&](int k) -> const Vec3& { return mesh_.positions[corners[k % 3]]; };
     const Vec3 normal = (at(1) - at(0)).cross(at(2) - at(0)).stableNormalized();
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i < 3; ++i) {
       // Each side of the outline that the point lies on limits the way.
-      if (place.barycentric[(i + 2) % 3] > kOnEdge) continue;
+      if (!is_on_edge(place, 3 * place.face + i)) continue;
       const Vec3 side = (at(i + 1) - at(i)).stableNormalized();
       least = std::min(least, normal.cross(side).dot(direction));
     }
@@ -132,7 +117,7 @@ class FaceCarrier {
     const auto face = result_.face(f);
     for (int i = 0; i < static_cast<int>(face.size()); ++i) {
       places_.find(face[i], found_);
-      const Place& place = places_.choose(f, i, found_);
+      const SurfacePoint& place = places_.choose(f, i, found_);
       if (!from_.texture.empty()) add_texture(place);
       for (std::size_t k = 0; k < from_.labels.size(); ++k) vote(k, place);
     }
@@ -142,19 +127,19 @@ class FaceCarrier {
   }
 
  private:
-  void add_texture(const Place& place) {
+  void add_texture(const SurfacePoint& place) {
     TexturePoint& point = to_.texture.emplace_back(TexturePoint{});
     for (int i = 0; i < 3; ++i) {
       add_weighted(point, place.barycentric[i], from_.texture[3 * place.face + i]);
     }
   }
 
-  void vote(std::size_t kind, const Place& place) {
+  void vote(std::size_t kind, const SurfacePoint& place) {
     const std::vector<Index>& label = from_.labels[kind].of_face;
     const Index own = label[place.face];
     chosen_[kind].push_back(own);
     const bool is_sure = std::all_of(found_.begin(), found_.end(),
-                                     [&](const Place& p) { return label[p.face] == own; });
+                                     [&](const SurfacePoint& p) { return label[p.face] == own; });
     if (is_sure) sure_[kind].push_back(own);
   }
 
@@ -162,7 +147,7 @@ class FaceCarrier {
   Attributes& to_;
   const PolyMesh& result_;
   CornerPlaces places_;
-  std::vector<Place> found_;
+  std::vector<SurfacePoint> found_;
   std::vector<std::vector<Index>> sure_;  ///< votes for labels of each kind
   std::vector<std::vector<Index>> chosen_;
 };

@@ -6,12 +6,13 @@
 #include <unordered_set>
 
 #include "common/geometry/surface_point.h"
+#include "common/geometry/topology/vertex_ring.h"
 
 namespace strake {
 
 NearestOnSurface::NearestOnSurface(const TriMesh& mesh, const QuadMesh& quads) : mesh_(mesh) {
   for (Index r = 0; r < quads.mesh.vertex_count(); ++r) {
-    const SurfacePoint foot{quads.provenance.face[r], quads.provenance.barycentric[r]};
+    const SurfacePoint foot = foot_of(quads.provenance, r);
     feet_.push_back(place_of(mesh, foot));
     by_face_.emplace_back(foot.face, r);
   }
@@ -41,21 +42,19 @@ Index NearestOnSurface::vertex(Index face, const Vec3& place) const {
   std::unordered_set<Index> settled;
   for (const Index v : mesh_.faces[face]) queue.emplace((mesh_.positions[v] - place).norm(), v);
   while (!queue.empty()) {
-    const auto [reached, v] = queue.top();
+    const double reached = queue.top().first;  // no bindings: clang 14 takes none into lambdas
+    const Index v = queue.top().second;
     queue.pop();
     if (reached > least) break;
     if (!settled.insert(v).second) continue;
     const Vec3& here = mesh_.positions[v];
-    const Index first = mesh_.vertex_out[v];
-    for (Index h = first; h != kNone;) {
+    for_each_outgoing(mesh_, v, [&](Index h) {
       look_in(TriMesh::face_of(h), here, reached);
       for (const Index w : {mesh_.to(h), mesh_.from(TriMesh::prev(h))}) {
         const double there = reached + (mesh_.positions[w] - here).norm();
         if (there <= least && !settled.contains(w)) queue.emplace(there, w);
       }
-      h = mesh_.rotate_ccw(h);
-      if (h == first) break;
-    }
+    });
   }
   return best;
 }

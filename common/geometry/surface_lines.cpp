@@ -3,13 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/geometry/topology/vertex_ring.h"
+
 namespace strake {
-namespace {
-
-/// A line runs along a straight way that is this much shorter, at most.
-constexpr double kLongestLine = 2;
-
-}  // namespace
 
 Vec3 SurfaceLines::position(const Place& at) const {
   const Vec3& a = mesh_.positions[mesh_.from(at.halfedge)];
@@ -18,22 +14,18 @@ Vec3 SurfaceLines::position(const Place& at) const {
 
 std::vector<SurfaceLines::Place> SurfaceLines::places(const SurfacePoint& point) const {
   std::vector<Place> found;
-  for (int i = 0; i < 3; ++i) {
-    if (point.barycentric[i] < 1 - kOnEdge) continue;
-    const Index first = mesh_.vertex_out[mesh_.faces[point.face][i]];
-    for (Index h = first; h != kNone;) {
+  const Index corner = corner_at(point);
+  if (corner != kNone) {
+    for_each_outgoing(mesh_, mesh_.from(corner), [&](Index h) {
       if (mesh_.is_barrier(h)) found.push_back({h, 0});
       const Index in = TriMesh::prev(h);
       if (mesh_.is_boundary(in)) found.push_back({in, 1});
-      h = mesh_.rotate_ccw(h);
-      if (h == first) break;
-    }
+    });
     return found;
   }
-  for (int i = 0; i < 3; ++i) {
-    const Index h = 3 * point.face + i;
-    if (point.barycentric[(i + 2) % 3] >= kOnEdge || !mesh_.is_barrier(h)) continue;
-    const double lambda = point.barycentric[(i + 1) % 3];
+  for (Index h = 3 * point.face; h < 3 * point.face + 3; ++h) {
+    if (!is_on_edge(point, h) || !mesh_.is_barrier(h)) continue;
+    const double lambda = share_along(point, h);
     found.push_back({h, lambda});
     if (!mesh_.is_boundary(h)) found.push_back({mesh_.twin[h], 1 - lambda});
   }
@@ -41,23 +33,15 @@ std::vector<SurfaceLines::Place> SurfaceLines::places(const SurfacePoint& point)
 }
 
 bool SurfaceLines::is_corner(const SurfacePoint& point) const {
-  for (int i = 0; i < 3; ++i) {
-    if (point.barycentric[i] < 1 - kOnEdge) continue;
-    return mesh_.is_corner[mesh_.faces[point.face][i]] != 0;
-  }
-  return false;
+  const Index corner = corner_at(point);
+  return corner != kNone && mesh_.is_corner[mesh_.from(corner)] != 0;
 }
 
 Index SurfaceLines::next_on_line(Index h) const {
   const Index v = mesh_.to(h);
   if (mesh_.is_corner[v] != 0) return kNone;
-  const Index first = mesh_.vertex_out[v];
-  for (Index out = first; out != kNone;) {
-    if (mesh_.is_barrier(out) && out != mesh_.twin[h]) return out;
-    out = mesh_.rotate_ccw(out);
-    if (out == first) break;
-  }
-  return kNone;
+  return find_outgoing(mesh_, v,
+                       [&](Index out) { return mesh_.is_barrier(out) && out != mesh_.twin[h]; });
 }
 
 std::vector<SurfaceLines::Place> SurfaceLines::way(const Place& from, const SurfacePoint& to,

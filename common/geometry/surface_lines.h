@@ -16,6 +16,9 @@ class SurfaceLines {
     double lambda = 0;       ///< along it
   };
 
+  /// A line joins two points where its way is at most this many times as long as the straight one.
+  static constexpr double kLongestLine = 2;
+
   /// \param mesh  kept by reference
   explicit SurfaceLines(const TriMesh& mesh) : mesh_(mesh) {}
 

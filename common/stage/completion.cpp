@@ -3,16 +3,11 @@
 #include <algorithm>
 
 #include "common/core/error.h"
+#include "common/core/text.h"
 #include "common/stage/command_tree.h"
 
 namespace strake {
 namespace {
-
-std::string join(const std::vector<std::string>& words, const char* separator) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
-  return text;
-}
 
 /// A name that shells take for a function: _strake_tensor.
 std::string function_name(const std::string& program) {
@@ -37,7 +32,8 @@ std::string first_sentence(const std::string& help) {
 /// How bash completes a value or a file.
 std::string bash_values(const CommandWord& word) {
   if (const auto choices = word.choices(); !choices.empty()) {
-    return fmt::format("mapfile -t COMPREPLY < <(compgen -W '{}' -- \"$cur\")", join(choices, " "));
+    return fmt::format("mapfile -t COMPREPLY < <(compgen -W '{}' -- \"$cur\")",
+                       join_words(choices, " "));
   }
   if (word.takes_file() || word.takes_folder()) {
     return fmt::format(
@@ -50,11 +46,12 @@ std::string bash_values(const CommandWord& word) {
 void add_bash_command(const CommandTree& command, const std::string& key, std::string& script) {
   std::string names;
   for (const CommandWord& option : command.options()) {
-    names += (names.empty() ? "" : " ") + join(option.names, " ");
+    names += (names.empty() ? "" : " ") + join_words(option.names, " ");
     if (!option.takes_value()) continue;
     std::vector<std::string> patterns;
     for (const std::string& name : option.names) patterns.push_back(quoted(key + " " + name));
-    script += fmt::format("    {}) {}; return ;;\n", join(patterns, " | "), bash_values(option));
+    script +=
+        fmt::format("    {}) {}; return ;;\n", join_words(patterns, " | "), bash_values(option));
   }
   script += fmt::format(
       "    {}*)\n      if [[ $cur == -* ]]; then\n        mapfile -t COMPREPLY < "
@@ -68,7 +65,7 @@ void add_bash_command(const CommandTree& command, const std::string& key, std::s
     for (const CommandTree& each : command.commands) commands.push_back(each.name);
     script +=
         fmt::format("      else\n        mapfile -t COMPREPLY < <(compgen -W '{}' -- \"$cur\")\n",
-                    join(commands, " "));
+                    join_words(commands, " "));
   } else if (file != command.positionals.end()) {
     script += "      else\n        " + bash_values(*file) + "\n";
   } else if (!command.positionals.empty()) {
@@ -88,7 +85,7 @@ std::string bash_script(const CommandTree& program) {
     script += fmt::format(
         "  for ((i = 1; i < COMP_CWORD; i++)); do\n    case ${{COMP_WORDS[i]}} in\n"
         "      {}) command=${{COMP_WORDS[i]}}; break ;;\n    esac\n  done\n",
-        join(commands, " | "));
+        join_words(commands, " | "));
   }
   script += "  COMPREPLY=()\n  case \"$command $prev\" in\n";
   for (const CommandTree& each : program.commands) add_bash_command(each, each.name, script);
@@ -111,7 +108,7 @@ std::string zsh_text(const std::string& text) {
 std::string zsh_value(const CommandWord& word) {
   std::string action;
   if (const auto choices = word.choices(); !choices.empty()) {
-    return fmt::format(":value:({})", join(choices, " "));
+    return fmt::format(":value:({})", join_words(choices, " "));
   }
   if (word.takes_file()) action = "_files";
   if (word.takes_folder()) action = "_files -/";
@@ -123,7 +120,8 @@ std::string zsh_arguments(const CommandTree& command) {
   for (const CommandWord& option : command.options()) {
     const std::string value = option.takes_value() ? zsh_value(option) : "";
     for (const std::string& name : option.names) {
-      const std::string others = option.names.size() > 1 ? "(" + join(option.names, " ") + ")" : "";
+      const std::string others =
+          option.names.size() > 1 ? "(" + join_words(option.names, " ") + ")" : "";
       text += " \\\n    " +
               quoted(others + name + "[" + zsh_text(first_sentence(option.help)) + "]" + value);
     }
@@ -178,7 +176,7 @@ std::string fish_quoted(const std::string& text) {
 
 std::string fish_value(const CommandWord& word) {
   if (const auto choices = word.choices(); !choices.empty()) {
-    return " -x -a " + fish_quoted(join(choices, " "));
+    return " -x -a " + fish_quoted(join_words(choices, " "));
   }
   if (word.takes_folder()) return " -x -a '(__fish_complete_directories)'";
   if (word.takes_file()) return " -r -F";

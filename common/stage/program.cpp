@@ -21,6 +21,7 @@
 #include "common/artifact/text_file.h"
 #include "common/core/error.h"
 #include "common/core/suggest.h"
+#include "common/core/text.h"
 #include "common/stage/build_facts.h"
 #include "common/stage/command_tree.h"
 #include "common/stage/repro.h"
@@ -38,11 +39,7 @@ bool is_flag(const Option& option) { return std::holds_alternative<bool*>(option
 
 /// What kind of text an option takes, for the help.
 std::string type_text(const Option& option) {
-  if (!option.choices.empty()) {
-    std::string text;
-    for (const std::string& choice : option.choices) text += (text.empty() ? "" : "|") + choice;
-    return text;
-  }
+  if (!option.choices.empty()) return join_words(option.choices, "|");
   if (!option.unit.empty()) return option.unit == "length" ? "LENGTH" : option.unit;
   if (std::holds_alternative<std::int64_t*>(option.target) ||
       std::holds_alternative<std::optional<std::int64_t>*>(option.target)) {

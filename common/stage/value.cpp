@@ -8,6 +8,7 @@
 #include "common/artifact/meshfile/guide_reader.h"
 #include "common/artifact/meshfile/mesh_writer.h"
 #include "common/core/error.h"
+#include "common/core/text.h"
 #include "common/stage/invariants.h"
 #include "common/stage/overloaded.h"
 
@@ -17,14 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kArtifactExtension = ".hdf";
-
-std::string lower_extension(const fs::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return extension;
-}
 
 Polygons load_polygons(const fs::path& path) {
   Polygons polygons;
@@ -96,7 +89,7 @@ void save_value(const fs::path& path, const Value& value, const TriMesh* mesh,
           [&](const DensityField&) { throw Error(ExitCode::internal, "a density is not written"); },
           [&](const GuideLines&) { throw Error(ExitCode::internal, "guides are not written"); },
           [&](const QuadMesh& quads) {
-            if (lower_extension(path) == kArtifactExtension) {
+            if (lower_case(path.extension().string()) == kArtifactExtension) {
               write_artifact(path, quads, provenance);
             } else {
               write_mesh(path, quads.mesh);
@@ -122,16 +115,14 @@ std::string content_of(const Value& value, const TriMesh* mesh) {
 }
 
 void check_output_path(PortKind kind, const fs::path& path) {
-  const std::string extension = lower_extension(path);
+  const std::string extension = lower_case(path.extension().string());
   std::vector<std::string> allowed = {kArtifactExtension};
   if (kind == PortKind::report) allowed = {".json"};
   if (kind == PortKind::polygons) allowed = {".obj", ".ply", ".off"};
   if (kind == PortKind::quads) allowed = {".obj", ".ply", ".off", kArtifactExtension};
   if (std::find(allowed.begin(), allowed.end(), extension) == allowed.end()) {
-    std::string list;
-    for (const std::string& item : allowed) list += (list.empty() ? "" : ", ") + item;
     throw UsageError("output '" + path.string() + "': the name must end in " +
-                     (allowed.size() > 1 ? "one of " : "") + list);
+                     (allowed.size() > 1 ? "one of " : "") + join_words(allowed));
   }
   check_place("output", path);
 }

@@ -12,6 +12,7 @@
 
 #include "common/geometry/mesh_measures.h"
 #include "common/geometry/topology/topology.h"
+#include "common/geometry/topology/vertex_ring.h"
 #include "stages/coarsen/plane_quadric.h"
 
 namespace strake {
@@ -148,46 +149,20 @@ class Coarsening {
 
   [[nodiscard]] const Vec3& at(Index v) const { return parent_.positions[v]; }
 
-  /// Calls visit with each half-edge that leaves a vertex, as long as that says true.
-  template <class Visit>
-  void around(Index v, Visit visit) const {
-    const Index first = mesh_.vertex_out[v];
-    Index h = first;
-    do {
-      if (!visit(h)) return;
-      h = mesh_.rotate_ccw(h);
-    } while (h != kNone && h != first);
-  }
-
-  template <class Visit>
-  void for_neighbours(Index v, Visit visit) const {
-    around(v, [&](Index h) {
-      visit(mesh_.to(h));
-      const Index last = TriMesh::prev(h);
-      if (mesh_.is_boundary(last)) visit(mesh_.from(last));
-      return true;
-    });
-  }
-
   [[nodiscard]] bool touches_line(Index v) const {
-    bool touches = parent_.is_corner[v] != 0;
-    around(v, [&](Index h) {
-      touches = touches || mesh_.is_barrier(h);
-      return !touches;
-    });
-    return touches;
+    return parent_.is_corner[v] != 0 ||
+           any_outgoing(mesh_, v, [&](Index h) { return mesh_.is_barrier(h); });
   }
 
   [[nodiscard]] PlaneQuadric quadric(Index v) const {
     PlaneQuadric sum;
-    around(v, [&](Index h) {
+    for_each_outgoing(mesh_, v, [&](Index h) {
       const auto& [a, b, c] = mesh_.faces[TriMesh::face_of(h)];
       const Vec3 cross = (at(b) - at(a)).cross(at(c) - at(a));
       const double length = cross.norm();
-      if (!(length > 0)) return true;
+      if (!(length > 0)) return;
       const Vec3 normal = cross / length;
       sum.add_plane(normal, -normal.dot(at(a)), length / 2);
-      return true;
     });
     return sum;
   }
@@ -196,15 +171,13 @@ class Coarsening {
   [[nodiscard]] Best look(Index v) const {
     std::array<std::pair<double, Index>, kMostNeighbours> ways;  // cost and half-edge
     std::size_t count = 0;
-    bool fits = true;
-    around(v, [&](Index h) {
-      fits = count < ways.size();
-      if (!fits) return false;
+    const bool has_more = any_outgoing(mesh_, v, [&](Index h) {
+      if (count == ways.size()) return true;
       const Vec3& p = at(mesh_.to(h));
       ways[count++] = {std::max(quadrics_[v].at(p) + quadrics_[mesh_.to(h)].at(p), 0.0), h};
-      return true;
+      return false;
     });
-    if (!fits) return {};
+    if (has_more) return {};
     std::sort(ways.begin(), ways.begin() + static_cast<std::ptrdiff_t>(count));
     for (std::size_t i = 0; i < count; ++i) {
       const auto& [cost, halfedge] = ways[i];
@@ -216,15 +189,13 @@ class Coarsening {
   /// Whether the faces around a vertex that goes are left in order, but for the two that go too.
   [[nodiscard]] bool keeps_shape(Index halfedge) const {
     const Index target = mesh_.to(halfedge);
-    bool keeps = true;
-    around(mesh_.from(halfedge), [&](Index h) {
+    const auto spoils = [&](Index h) {
       const Index b = mesh_.to(h);
       const Index c = mesh_.from(TriMesh::prev(h));
-      keeps = b == target || c == target ||
-              keeps_face(at(mesh_.from(halfedge)), at(target), at(b), at(c));
-      return keeps;
-    });
-    return keeps;
+      return b != target && c != target &&
+             !keeps_face(at(mesh_.from(halfedge)), at(target), at(b), at(c));
+    };
+    return !any_outgoing(mesh_, mesh_.from(halfedge), spoils);
   }
 
   /// Whether a face may become that of `after` and the two vertices that it keeps.
@@ -265,13 +236,14 @@ class Coarsening {
   /// 1999).
   [[nodiscard]] bool keeps_topology(Index halfedge) {
     ++stamp_;
-    for_neighbours(mesh_.from(halfedge), [&](Index v) { seen_[v] = stamp_; });
+    for_each_neighbour(mesh_, mesh_.from(halfedge), [&](Index v) { seen_[v] = stamp_; });
     int common = 0;
-    for_neighbours(mesh_.to(halfedge), [&](Index v) { common += seen_[v] == stamp_ ? 1 : 0; });
+    for_each_neighbour(mesh_, mesh_.to(halfedge),
+                       [&](Index v) { common += seen_[v] == stamp_ ? 1 : 0; });
     if (common != 2) return false;
     const auto can_lose_an_edge = [&](Index v) {
       int neighbours = 0;
-      for_neighbours(v, [&](Index) { ++neighbours; });
+      for_each_neighbour(mesh_, v, [&](Index) { ++neighbours; });
       return neighbours > 3;
     };
     return can_lose_an_edge(mesh_.from(TriMesh::prev(halfedge))) &&
@@ -292,11 +264,10 @@ class Coarsening {
     const Index wedge = mesh_.wedge_of(TriMesh::next(halfedge));
     std::array<Index, kMostNeighbours> out;
     std::size_t count = 0;
-    around(gone, [&](Index h) {
+    for_each_outgoing(mesh_, gone, [&](Index h) {
       out[count++] = h;
       State& state = best_[mesh_.to(h)].state;
       if (state != State::fixed) state = State::changed;
-      return true;
     });
     // The faces (gone, target, a) and (target, gone, b) go.
     const Index twin = mesh_.twin[halfedge];

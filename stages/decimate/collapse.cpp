@@ -7,7 +7,6 @@
 #include <OpenMesh/Tools/Decimater/Observer.hh>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "common/core/error.h"
 #include "common/geometry/angles.h"
@@ -20,7 +19,7 @@ namespace {
 /// else go before short ones that bend by a few degrees, as in the flutes of a column.
 constexpr double kShortFirst = 1e-10;
 /// An edge may be turned where its quad turns by less along either diagonal.
-constexpr double kFlatBend = 2 * std::numbers::pi / 180;
+constexpr double kFlatBend = 2 * kDegree;
 constexpr std::size_t kReported = 1000;  ///< vertices that go from one report to the next
 constexpr int kMostTurns = 10;           ///< times that all edges are looked at
 

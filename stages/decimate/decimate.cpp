@@ -6,6 +6,7 @@
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_topology.h"
 #include "common/geometry/poly_topology/same_topology.h"
+#include "common/geometry/surface_point.h"
 #include "stages/decimate/collapse.h"
 #include "stages/decimate/pair_triangles.h"
 
@@ -15,13 +16,7 @@ namespace {
 /// Vertices of a result that are those of the surface.
 VertexProvenance provenance_of(const TriMesh& mesh, const std::vector<Index>& vertices) {
   VertexProvenance result;
-  for (const Index v : vertices) {
-    const Index h = mesh.vertex_out[v];
-    result.face.push_back(TriMesh::face_of(h));
-    result.barycentric.push_back({0, 0, 0});
-    result.barycentric.back()[h % 3] = 1;
-    result.lines.push_back({kNone, kNone});
-  }
+  for (const Index v : vertices) add_foot(result, point_at_vertex(mesh, v));
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "common/geometry/mesh_measures.h"
+#include "common/geometry/topology/own_component.h"
 
 namespace strake::fitting {
 namespace {
@@ -27,8 +28,6 @@ constexpr std::array<Quadrature, 6> kRule = {{{0.223381589678011, {kA, kB, kB}},
                                               {0.109951743655322, {kD, kC, kD}},
                                               {0.109951743655322, {kD, kD, kC}}}};
 
-/// Samples whose nearest surface faces another way belong to another sheet.
-constexpr double kLeastAgreement = 0.5;
 /// Shorter ways, as a share of the diagonal, have no direction of their own.
 constexpr double kNoWay = 1e-12;
 /// Distance that counts double, in root mean squares.
@@ -157,7 +156,7 @@ void Deviation::measure_result(const std::vector<Vec3>& positions,
       const ClosestPoint nearest = surface_.closest_near(place, guess);
       own = {nearest.distance, Vec3::Zero(), nearest.triangle};
       const Vec3 normal = face_normals_[nearest.triangle];
-      if (!(normal.dot(cross) > kLeastAgreement * area2)) continue;
+      if (!(normal.dot(cross) > kSameSheet * area2)) continue;
       set_way(own, surface_.point(nearest) - place, normal, kNoWay * mesh_.diagonal);
     }
   });
@@ -177,7 +176,7 @@ void Deviation::measure_surface(const std::vector<Vec3>& positions,
     at = nearest.barycentric;
     const Vec3& a = positions[corners[0]];
     const Vec3 cross = (positions[corners[1]] - a).cross(positions[corners[2]] - a);
-    if (!(normals_[s].dot(cross) > kLeastAgreement * cross.norm())) return;
+    if (!(normals_[s].dot(cross) > kSameSheet * cross.norm())) return;
     set_way(gap, place - result.point(nearest), normals_[s], kNoWay * mesh_.diagonal);
   });
 }

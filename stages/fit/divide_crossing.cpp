@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <set>
 #include <vector>
@@ -19,7 +18,7 @@
 namespace strake::fitting {
 namespace {
 
-constexpr double kLeastAngle = 1 * std::numbers::pi / 180;
+constexpr double kLeastAngle = 1 * kDegree;
 /// What passes through more faces does so however it is divided: sheets on top of each other.
 constexpr int kMostCrossings = 8;
 

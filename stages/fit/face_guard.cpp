@@ -14,7 +14,7 @@
 namespace strake::fitting {
 namespace {
 
-constexpr double kSmallAngle = 20 * std::numbers::pi / 180;
+constexpr double kSmallAngle = 20 * kDegree;
 /// Angles that differ by less are equal: rounding.
 constexpr double kSameAngle = 1e-9;
 

@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "common/geometry/angles.h"
 #include "common/geometry/poly_topology/face_shape.h"
@@ -15,7 +14,7 @@ namespace strake::fitting {
 namespace {
 
 /// Corners above this are the straight side of a T-joint.
-constexpr double kJointAngle = 150 * std::numbers::pi / 180;
+constexpr double kJointAngle = 150 * kDegree;
 /// What it costs to leave the field's direction, to bend, and to leave the middle between
 /// neighbours; for the same angle.
 constexpr double kAlong = 150;
@@ -89,13 +88,7 @@ DirectionTerm across_line(const VertexPlaces& places, const Vec3& tangent,
 
 FlowLines::FlowLines(const PolyMesh& mesh) : mesh_(mesh) {
   PolyEdges edges = collect_edges(mesh);
-  std::vector<Index> twin(mesh.corners.size(), kNone);
-  for (Index e = 0; e < edges.edge_count(); ++e) {
-    const std::span<const Index> sides = edges.sides_of(e);
-    if (sides.size() != 2) continue;
-    twin[sides[0]] = sides[1];
-    twin[sides[1]] = sides[0];
-  }
+  const std::vector<Index> opposite = opposite_sides(edges);
   edges_ = std::move(edges.vertices);
   face_of_ = std::move(edges.corner_face);
   std::vector<Index> corner_at(mesh.positions.size(), kNone);
@@ -103,18 +96,18 @@ FlowLines::FlowLines(const PolyMesh& mesh) : mesh_(mesh) {
     corner_at[mesh.corners[c]] = static_cast<Index>(c);
   }
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    if (corner_at[v] != kNone) follow_lines(v, corners_around(twin, corner_at[v]));
+    if (corner_at[v] != kNone) follow_lines(v, corners_around(opposite, corner_at[v]));
   }
 }
 
 /// The corners at a vertex counter-clockwise; none on the boundary.
-std::vector<Index> FlowLines::corners_around(const std::vector<Index>& twin, Index first) const {
+std::vector<Index> FlowLines::corners_around(const std::vector<Index>& opposite,
+                                             Index first) const {
   std::vector<Index> corners;
   Index c = first;
   do {
     corners.push_back(c);
-    const Index f = face_of_[c];
-    c = twin[c == mesh_.offsets[f] ? mesh_.offsets[f + 1] - 1 : c - 1];
+    c = opposite[mesh_.previous_corner(face_of_[c], c)];
     if (c == kNone) return {};
   } while (c != first);
   return corners;
@@ -122,10 +115,7 @@ std::vector<Index> FlowLines::corners_around(const std::vector<Index>& twin, Ind
 
 void FlowLines::follow_lines(Index vertex, const std::vector<Index>& around) {
   std::vector<Index> ends;
-  for (const Index c : around) {
-    const Index f = face_of_[c];
-    ends.push_back(mesh_.corners[c + 1 == mesh_.offsets[f + 1] ? mesh_.offsets[f] : c + 1]);
-  }
+  for (const Index c : around) ends.push_back(mesh_.corners[mesh_.next_corner(face_of_[c], c)]);
   if (ends.size() == 4) {
     through_.push_back({ends[0], vertex, ends[2]});
     through_.push_back({ends[1], vertex, ends[3]});

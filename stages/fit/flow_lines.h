@@ -48,7 +48,7 @@ class FlowLines {
     Through along;  ///< in the face's order
   };
 
-  [[nodiscard]] std::vector<Index> corners_around(const std::vector<Index>& twin,
+  [[nodiscard]] std::vector<Index> corners_around(const std::vector<Index>& opposite,
                                                   Index first) const;
   /// [edges] the part of an edge's wishes that moves its end on a feature or boundary line, where
   /// the other end is free; 1 elsewhere. Directions count there as much as they matter beside those

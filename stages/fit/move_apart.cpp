@@ -12,6 +12,7 @@
 #include "common/geometry/face_crossings/box_tree.h"
 #include "common/geometry/face_crossings/placed_face.h"
 #include "common/geometry/patch_fill/mendable_crossings.h"
+#include "common/geometry/poly_topology/vertex_faces.h"
 
 namespace strake::fitting {
 namespace {
@@ -29,14 +30,10 @@ class MoveApart {
       : mesh_(mesh),
         guard_(guard),
         places_(places),
-        faces_of_(mesh.positions.size()),
+        around_(mesh),
         tree_(boxes()),
         is_moved_(static_cast<std::size_t>(mesh.face_count()), 0),
-        in_vain_(mesh.positions.size()) {
-    for (Index f = 0; f < mesh.face_count(); ++f) {
-      for (const Index v : mesh.face(f)) faces_of_[v].push_back(f);
-    }
-  }
+        in_vain_(mesh.positions.size()) {}
 
   Index run(const std::vector<std::array<Index, 2>>& pairs) {
     std::set<Index> vertices;
@@ -73,7 +70,7 @@ class MoveApart {
 
   [[nodiscard]] BoxTree::Box box_around(Index v) const {
     BoxTree::Box around;
-    for (const Index f : faces_of_[v]) around.extend(box(f));
+    for (const Index f : around_.faces(v)) around.extend(box(f));
     return around;
   }
 
@@ -81,7 +78,7 @@ class MoveApart {
   [[nodiscard]] std::vector<PlacedFace> faces_in(const BoxTree::Box& within, Index v) const {
     std::vector<PlacedFace> faces;
     const auto add = [&](Index f) {
-      const bool is_around = std::ranges::find(faces_of_[v], f) != faces_of_[v].end();
+      const bool is_around = std::ranges::binary_search(around_.faces(v), f);
       if (!is_around && box(f).intersects(within)) faces.push_back(placed(f));
     };
     // The tree holds the places at the start: what has moved since is looked at in any case.
@@ -97,7 +94,7 @@ class MoveApart {
                                          std::size_t most) const {
     std::size_t count = 0;
     std::vector<PlacedFace> own;
-    for (const Index f : faces_of_[v]) {
+    for (const Index f : around_.faces(v)) {
       const PlacedFace face = placed(f);
       for (const auto& some : {std::cref(own), std::cref(others)}) {
         for (const PlacedFace& other : some.get()) {
@@ -118,13 +115,7 @@ class MoveApart {
 
   [[nodiscard]] Ways ways_from(Index v) const {
     const std::vector<Vec3>& p = places_.positions();
-    std::set<Index> neighbours;
-    for (const Index f : faces_of_[v]) {
-      const std::span<const Index> face = mesh_.face(f);
-      const auto at = static_cast<std::size_t>(std::ranges::find(face, v) - face.begin());
-      neighbours.insert(face[(at + 1) % face.size()]);
-      neighbours.insert(face[(at + face.size() - 1) % face.size()]);
-    }
+    const std::vector<Index> neighbours = around_.neighbours(v);
     Ways ways;
     Vec3 middle = Vec3::Zero();
     for (const Index w : neighbours) {
@@ -178,7 +169,7 @@ class MoveApart {
         places_.restore(v, start);
         places_.move(v, kShares[i] * way);
         if (std::abs(places_.height(v)) > highest) continue;
-        if (std::ranges::any_of(faces_of_[v],
+        if (std::ranges::any_of(around_.faces(v),
                                 [&](Index f) { return guard_.is_spoilt(places_, f); })) {
           continue;
         }
@@ -193,7 +184,7 @@ class MoveApart {
     changed_.push_back(box_around(v));
     places_.restore(v, best);
     changed_.push_back(box_around(v));
-    for (const Index f : faces_of_[v]) {
+    for (const Index f : around_.faces(v)) {
       if (is_moved_[f] == 0) moved_.push_back(f);
       is_moved_[f] = 1;
     }
@@ -203,12 +194,12 @@ class MoveApart {
   const PolyMesh& mesh_;
   const FaceGuard& guard_;
   VertexPlaces& places_;
-  std::vector<std::vector<Index>> faces_of_;  ///< [V]
-  BoxTree tree_;                              ///< of the faces at the start
-  std::vector<Index> moved_;                  ///< faces
-  std::vector<std::uint8_t> is_moved_;        ///< [F] whether it is one of them
-  std::vector<BoxTree::Box> changed_;         ///< of faces that moved, before and after, in turn
-  std::vector<InVain> in_vain_;               ///< [V]
+  VertexFaces around_;
+  BoxTree tree_;                        ///< of the faces at the start
+  std::vector<Index> moved_;            ///< faces
+  std::vector<std::uint8_t> is_moved_;  ///< [F] whether it is one of them
+  std::vector<BoxTree::Box> changed_;   ///< of faces that moved, before and after, in turn
+  std::vector<InVain> in_vain_;         ///< [V]
 };
 
 }  // namespace

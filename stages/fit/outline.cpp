@@ -19,7 +19,7 @@ Outline::Outline(const PolyMesh& mesh, const VertexPlaces& places) : mesh_(mesh)
     if (edges.sides_of(e).size() != 1) continue;
     const Index corner = edges.sides_of(e)[0];
     const Index face = edges.corner_face[corner];
-    const Index next = corner + 1 == mesh.offsets[face + 1] ? mesh.offsets[face] : corner + 1;
+    const Index next = mesh.next_corner(face, corner);
     edges_.push_back({{mesh.corners[corner], mesh.corners[next]}, face});
   }
 }

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "common/core/disjoint_sets.h"
+#include "common/geometry/topology/vertex_ring.h"
 
 namespace strake::fitting {
 namespace {
@@ -21,13 +22,8 @@ bool is_input_face(const TriMesh& mesh, const QuadMesh& quads, std::span<const I
   const Index b = input_vertex(mesh, quads, face[1]);
   const Index c = input_vertex(mesh, quads, face[2]);
   if (a == kNone || b == kNone || c == kNone) return false;
-  const Index first = mesh.vertex_out[a];
-  Index h = first;
-  do {
-    if (mesh.to(h) == b && mesh.from(TriMesh::prev(h)) == c) return true;
-    h = mesh.rotate_ccw(h);
-  } while (h != kNone && h != first);
-  return false;
+  return any_outgoing(mesh, a,
+                      [&](Index h) { return mesh.to(h) == b && mesh.from(TriMesh::prev(h)) == c; });
 }
 
 }  // namespace

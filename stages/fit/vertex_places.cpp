@@ -9,7 +9,7 @@
 
 #include "common/geometry/frames.h"
 #include "common/geometry/poly_topology/poly_edges.h"
-#include "common/geometry/surface_point.h"
+#include "common/geometry/topology/vertex_ring.h"
 #include "stages/fit/result_components.h"
 
 namespace strake::fitting {
@@ -17,8 +17,6 @@ namespace {
 
 /// A vertex nearer to the boundary than this share of the diagonal is on it.
 constexpr double kOnBoundary = 1e-9;
-/// A foot stays on a sheet whose normal is within 60 degrees of the last one.
-constexpr double kLeastAgreement = 0.5;
 /// Vertices of the input's boundary that stand for what lies between two of the result's.
 constexpr std::size_t kMostBetween = 4;
 
@@ -33,12 +31,13 @@ std::vector<double> lengths_on_boundary(const TriMesh& mesh, const QuadMesh& qua
     const double length = (quads.mesh.positions[b] - quads.mesh.positions[a]).norm();
     if (!(length > 0)) continue;
     for (const Index v : {a, b}) {
-      for (int i = 0; i < 3; ++i) {
-        const Index h = 3 * quads.provenance.face[v] + i;
+      const SurfacePoint foot = foot_of(quads.provenance, v);
+      const Index corner = corner_at(foot);
+      for (Index h = 3 * foot.face; h < 3 * foot.face + 3; ++h) {
         const Index out = mesh.vertex_out[mesh.from(h)];
-        if (quads.provenance.barycentric[v][(i + 2) % 3] < kOnEdge && mesh.is_boundary(h)) {
+        if (is_on_edge(foot, h) && mesh.is_boundary(h)) {
           starts.emplace_back(h, length);
-        } else if (quads.provenance.barycentric[v][i] > 1 - kOnEdge && mesh.is_boundary(out)) {
+        } else if (h == corner && mesh.is_boundary(out)) {
           starts.emplace_back(out, length);
         }
       }
@@ -77,10 +76,11 @@ VertexPlaces::VertexPlaces(const TriMesh& mesh, const SurfaceDistance& surface,
       wedge_normals_(field == nullptr ? own_normals_ : field->normal),
       positions_(quads.mesh.positions),
       normals_(positions_.size()),
-      lines_(positions_.size()),
-      foot_face_(quads.provenance.face),
-      foot_(quads.provenance.barycentric) {
+      lines_(positions_.size()) {
   for (Vec3& p : positions_) p -= mesh.origin;
+  for (Index v = 0; v < quads.mesh.vertex_count(); ++v) {
+    feet_.push_back(foot_of(quads.provenance, v));
+  }
   const std::vector<std::uint8_t> is_of_input =
       vertices_of_input(mesh, quads, vertex_components(quads.mesh));
   tbb::parallel_for(Index{0}, quads.mesh.vertex_count(), [&](Index v) {
@@ -95,42 +95,30 @@ VertexPlaces::VertexPlaces(const TriMesh& mesh, const SurfaceDistance& surface,
 }
 
 void VertexPlaces::place_on_line(Index v) {
-  const auto& at = foot_[v];
   LinePlace& place = lines_[v];
-  for (int i = 0; i < 3; ++i) {
-    if (at[i] < 1 - kOnEdge) continue;
-    const Index vertex = mesh_.from(3 * foot_face_[v] + i);
-    const std::vector<Index> barriers = barriers_around(vertex);
-    if (is_corner(vertex)) {
-      place.kind = Kind::fixed;
-    } else if (barriers.empty()) {
-      return;
-    } else if (barriers.size() != 2) {
-      place.kind = Kind::fixed;
-    } else {
-      place = {Kind::line, barriers[0], mesh_.from(barriers[0]) == vertex ? 0.0 : 1.0};
-    }
+  const Index corner = corner_at(feet_[v]);
+  if (corner == kNone) {
+    const Index h = edge_at(feet_[v], [&](Index side) { return mesh_.is_barrier(side); });
+    if (h != kNone) place = {Kind::line, h, share_along(feet_[v], h)};
     return;
   }
-  for (int i = 0; i < 3; ++i) {
-    const Index opposite = 3 * foot_face_[v] + (i + 1) % 3;
-    if (at[i] < kOnEdge && mesh_.is_barrier(opposite)) {
-      place = {Kind::line, opposite, at[(i + 2) % 3]};
-      return;
-    }
+  const Index vertex = mesh_.from(corner);
+  const std::vector<Index> barriers = barriers_around(vertex);
+  if (!is_corner(vertex) && barriers.empty()) return;
+  if (is_corner(vertex) || barriers.size() != 2) {
+    place.kind = Kind::fixed;
+  } else {
+    place = {Kind::line, barriers[0], mesh_.from(barriers[0]) == vertex ? 0.0 : 1.0};
   }
 }
 
 /// A half-edge of each feature or boundary edge at a vertex.
 std::vector<Index> VertexPlaces::barriers_around(Index vertex) const {
   std::vector<Index> barriers;
-  const Index first = mesh_.vertex_out[vertex];
-  for (Index h = first; h != kNone;) {
+  for_each_outgoing(mesh_, vertex, [&](Index h) {
     if (mesh_.is_barrier(h)) barriers.push_back(h);
     if (mesh_.is_boundary(TriMesh::prev(h))) barriers.push_back(TriMesh::prev(h));
-    h = mesh_.rotate_ccw(h);
-    if (h == first) break;
-  }
+  });
   return barriers;
 }
 
@@ -144,8 +132,7 @@ Index VertexPlaces::other_barrier(Index vertex, Index halfedge) const {
 
 bool VertexPlaces::is_off_boundary(Index v) const {
   if (!borders_.is_off(mesh_, lines_[v].halfedge)) return false;
-  const Vec3 foot = place_of(mesh_, {foot_face_[v], foot_[v]});
-  return (positions_[v] - foot).norm() > kOnBoundary * mesh_.diagonal;
+  return (positions_[v] - place_of(mesh_, feet_[v])).norm() > kOnBoundary * mesh_.diagonal;
 }
 
 Vec3 VertexPlaces::line_end(const LinePlace& place, Index vertex) const {
@@ -194,9 +181,8 @@ VertexPlaces::LinePlace VertexPlaces::slide(LinePlace place, double distance) co
 
 Index VertexPlaces::boundary_at(Index v) const {
   Index h = lines_[v].halfedge;
-  for (int i = 0; h == kNone && i < 3; ++i) {
-    if (foot_[v][i] > 1 - kOnEdge) h = mesh_.vertex_out[mesh_.from(3 * foot_face_[v] + i)];
-  }
+  const Index corner = corner_at(feet_[v]);
+  if (h == kNone && corner != kNone) h = mesh_.vertex_out[mesh_.from(corner)];
   return h != kNone && mesh_.is_boundary(h) ? h : kNone;
 }
 
@@ -247,27 +233,24 @@ void VertexPlaces::move(Index v, const Vec3& move) {
 
 Vec3 VertexPlaces::normal_at_foot(Index v) const {
   Vec3 normal = Vec3::Zero();
+  const SurfacePoint& foot = feet_[v];
   for (int i = 0; i < 3; ++i) {
-    normal += foot_[v][i] * wedge_normals_[mesh_.face_wedges[foot_face_[v]][i]];
+    normal += foot.barycentric[i] * wedge_normals_[mesh_.face_wedges[foot.face][i]];
   }
-  return normal.norm() > 0 ? Vec3(normal.normalized()) : face_normals_[foot_face_[v]];
+  return normal.norm() > 0 ? Vec3(normal.normalized()) : face_normals_[foot.face];
 }
 
 double VertexPlaces::height(Index v) const {
-  Vec3 foot = Vec3::Zero();
-  for (int i = 0; i < 3; ++i) {
-    foot += foot_[v][i] * mesh_.positions[mesh_.faces[foot_face_[v]][i]];
-  }
-  return (positions_[v] - foot).dot(normals_[v]);
+  return (positions_[v] - place_of(mesh_, feet_[v])).dot(normals_[v]);
 }
 
 Vec3 VertexPlaces::cross_arm(const PrincipalField& field, Index v) const {
   const TangentFrame frame = tangent_frame(normals_[v]);
   std::complex<double> sum = 0;
   for (int i = 0; i < 3; ++i) {
-    const Index w = mesh_.face_wedges[foot_face_[v]][i];
-    sum += foot_[v][i] * cross_power(frame.tangent_from_world(
-                             rotate_between(field.normal[w], normals_[v], field.cross[w])));
+    const Index w = mesh_.face_wedges[feet_[v].face][i];
+    sum += feet_[v].barycentric[i] * cross_power(frame.tangent_from_world(rotate_between(
+                                         field.normal[w], normals_[v], field.cross[w])));
   }
   if (std::abs(sum) < 1e-6) return Vec3::Zero();
   return frame.world_from_tangent(strake::cross_arm(sum, Vec2(1, 0)));
@@ -276,23 +259,19 @@ Vec3 VertexPlaces::cross_arm(const PrincipalField& field, Index v) const {
 void VertexPlaces::update_feet() {
   tbb::parallel_for(std::size_t{0}, positions_.size(), [&](std::size_t v) {
     if (lines_[v].kind == Kind::line) {
-      foot_face_[v] = TriMesh::face_of(lines_[v].halfedge);
-      const int i = lines_[v].halfedge % 3;
-      foot_[v] = {0, 0, 0};
-      foot_[v][i] = 1 - lines_[v].along;
-      foot_[v][(i + 1) % 3] = lines_[v].along;
+      feet_[v] = point_along(lines_[v].halfedge, lines_[v].along);
     } else if (lines_[v].kind == Kind::free) {
-      const auto& [a, b, c] = mesh_.faces[foot_face_[v]];
+      const Index face = feet_[v].face;
+      const auto& [a, b, c] = mesh_.faces[face];
       const double bound = closest_point_on_triangle(positions_[v], mesh_.positions[a],
                                                      mesh_.positions[b], mesh_.positions[c])
                                .distance;
-      const Vec3 side = face_normals_[foot_face_[v]];
+      const Vec3 side = face_normals_[face];
       const ClosestPoint nearest = surface_.closest_if(positions_[v], bound, [&](Index f) {
-        return f == foot_face_[v] || (face_normals_[f].dot(side) > kLeastAgreement &&
-                                      components_.has_both(f, foot_face_[v]));
+        return f == face ||
+               (face_normals_[f].dot(side) > kSameSheet && components_.has_both(f, face));
       });
-      foot_face_[v] = nearest.triangle;
-      foot_[v] = nearest.barycentric;
+      feet_[v] = {nearest.triangle, nearest.barycentric};
     }
     normals_[v] = normal_at_foot(static_cast<Index>(v));
   });
@@ -301,8 +280,8 @@ void VertexPlaces::update_feet() {
 double VertexPlaces::anisotropy(const PrincipalField& field, Index v) const {
   double sum = 0;
   for (int i = 0; i < 3; ++i) {
-    const Index w = mesh_.face_wedges[foot_face_[v]][i];
-    sum += foot_[v][i] * std::abs(field.k_max[w] - field.k_min[w]);
+    const Index w = mesh_.face_wedges[feet_[v].face][i];
+    sum += feet_[v].barycentric[i] * std::abs(field.k_max[w] - field.k_min[w]);
   }
   return sum;
 }
@@ -325,9 +304,8 @@ void VertexPlaces::restore(Index v, const State& state) {
 void VertexPlaces::store(QuadMesh& quads) const {
   for (std::size_t v = 0; v < positions_.size(); ++v) {
     quads.mesh.positions[v] = positions_[v] + mesh_.origin;
+    set_foot(quads.provenance, static_cast<Index>(v), feet_[v]);
   }
-  quads.provenance.face = foot_face_;
-  quads.provenance.barycentric = foot_;
 }
 
 }  // namespace strake::fitting

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -10,6 +9,7 @@
 #include "common/geometry/border_course.h"
 #include "common/geometry/mesh_measures.h"
 #include "common/geometry/surface_distance/surface_distance.h"
+#include "common/geometry/surface_point.h"
 #include "common/geometry/topology/own_component.h"
 
 namespace strake::fitting {
@@ -98,14 +98,13 @@ class VertexPlaces {
   const SurfaceDistance& surface_;
   OwnComponent components_;  ///< of the input
   BorderCourse borders_;
-  FaceNormals face_normals_;                 ///< of the input
-  std::vector<Vec3> own_normals_;            ///< [W] empty where the field has them
-  const std::vector<Vec3>& wedge_normals_;   ///< of the input
-  std::vector<Vec3> positions_;              ///< [V] of the result
-  std::vector<Vec3> normals_;                ///< [V] at the feet
-  std::vector<LinePlace> lines_;             ///< [V]
-  std::vector<Index> foot_face_;             ///< [V]
-  std::vector<std::array<double, 3>> foot_;  ///< [V] barycentric
+  FaceNormals face_normals_;                ///< of the input
+  std::vector<Vec3> own_normals_;           ///< [W] empty where the field has them
+  const std::vector<Vec3>& wedge_normals_;  ///< of the input
+  std::vector<Vec3> positions_;             ///< [V] of the result
+  std::vector<Vec3> normals_;               ///< [V] at the feet
+  std::vector<LinePlace> lines_;            ///< [V]
+  std::vector<SurfacePoint> feet_;          ///< [V]
 };
 
 struct VertexPlaces::State {

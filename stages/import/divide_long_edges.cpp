@@ -9,6 +9,7 @@
 
 #include "common/geometry/mesh_measures.h"
 #include "common/geometry/topology/topology.h"
+#include "common/geometry/topology/vertex_ring.h"
 
 namespace strake::import {
 namespace {
@@ -41,13 +42,9 @@ bool goes_on_from_feature(const TriMesh& mesh, Index h) {
   const auto way = [&](Index edge) {
     return Vec3((mesh.positions[mesh.to(edge)] - mesh.positions[mesh.from(edge)]).normalized());
   };
-  const Index first = mesh.vertex_out[v];
-  Index out = first;
-  do {
-    if (mesh.is_feature[out] != 0 && way(out).dot(way(h)) < -kStraightOn) return true;
-    out = mesh.rotate_ccw(out);
-  } while (out != kNone && out != first);
-  return false;
+  return any_outgoing(mesh, v, [&](Index out) {
+    return mesh.is_feature[out] != 0 && way(out).dot(way(h)) < -kStraightOn;
+  });
 }
 
 /// Whether an edge leads from the end of one feature to that of another one in a row with it.

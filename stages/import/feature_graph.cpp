@@ -4,15 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "common/geometry/angles.h"
 
 namespace strake::import {
 namespace {
 
-constexpr double kWindow = 0.01;  ///< of the diagonal, on each side of a vertex
-constexpr double kSharpTurn = 50 * std::numbers::pi / 180;
+constexpr double kWindow = 0.01;       ///< of the diagonal, on each side of a vertex
 constexpr double kSmoothBoundary = 3;  ///< least window along a boundary, mean edges
 constexpr double kRaggedBoundary =
     10;  ///< the same where single edges turn by 40 degrees on average
@@ -140,7 +138,7 @@ class TurnMeter {
 
   /// Edges to look past along a boundary: the more, the more it turns from edge to edge.
   [[nodiscard]] double ragged_edges() const {
-    constexpr double kRagged = 40 * std::numbers::pi / 180;
+    constexpr double kRagged = 40 * kDegree;
     const Index inset = line_.is_closed ? 0 : 1;
     double sum = 0;
     for (Index i = inset; i < count_ - inset; ++i) {

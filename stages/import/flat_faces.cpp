@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/core/disjoint_sets.h"
+#include "common/core/tri_mesh.h"
 
 namespace strake::import {
 namespace {
@@ -14,9 +15,6 @@ namespace {
 constexpr double kZeroLength = 1e-10;  ///< of the diagonal
 constexpr double kRoundedAway = 1e-6;  ///< the same where a union has left slivers
 constexpr double kFlat = 1e-6;         ///< height over longest edge
-
-Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
-Index prev(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
 class FlatFaceRemover {
  public:
@@ -82,7 +80,7 @@ class FlatFaceRemover {
       if (twin_[start] == kNone) {
         is_boundary = true;
       } else {
-        start = next(twin_[start]);
+        start = TriMesh::next(twin_[start]);
         if (start == h) break;
       }
     }
@@ -90,7 +88,7 @@ class FlatFaceRemover {
     Index e = start;
     do {
       result.push_back(soup_.to(e));
-      const Index last = prev(e);
+      const Index last = TriMesh::prev(e);
       e = twin_[last];
       if (e == kNone) result.push_back(soup_.from(last));
     } while (e != kNone && e != start);
@@ -109,7 +107,7 @@ class FlatFaceRemover {
     bool from_boundary = false;
     bool to_boundary = false;
     const std::vector<Index> around_from = neighbours(h, from_boundary);
-    const std::vector<Index> around_to = neighbours(next(h), to_boundary);
+    const std::vector<Index> around_to = neighbours(TriMesh::next(h), to_boundary);
     std::vector<Index> common;
     std::set_intersection(around_from.begin(), around_from.end(), around_to.begin(),
                           around_to.end(), std::back_inserter(common));
@@ -118,13 +116,14 @@ class FlatFaceRemover {
     constexpr std::size_t kLeastValence = 4;  // else the apex is left with a folded pair of faces
     for (const Index side : {h, t}) {
       if (side == kNone) continue;
-      const bool outer = twin_[next(side)] == kNone || twin_[prev(side)] == kNone;
-      if (outer ? twin_[next(side)] == twin_[prev(side)] : valence(prev(side)) < kLeastValence) {
+      const bool outer = twin_[TriMesh::next(side)] == kNone || twin_[TriMesh::prev(side)] == kNone;
+      if (outer ? twin_[TriMesh::next(side)] == twin_[TriMesh::prev(side)]
+                : valence(TriMesh::prev(side)) < kLeastValence) {
         return false;
       }
     }
     const Index kept = soup_.from(h);
-    for (const Index e : outgoing(next(h))) soup_.faces[e / 3][e % 3] = kept;
+    for (const Index e : outgoing(TriMesh::next(h))) soup_.faces[e / 3][e % 3] = kept;
     close_up(h);
     if (t != kNone) close_up(t);
     return true;
@@ -132,11 +131,11 @@ class FlatFaceRemover {
 
   [[nodiscard]] std::vector<Index> outgoing(Index h) const {
     std::vector<Index> result = {h};
-    Index e = twin_[prev(h)];
-    for (; e != kNone && e != h; e = twin_[prev(e)]) result.push_back(e);
+    Index e = twin_[TriMesh::prev(h)];
+    for (; e != kNone && e != h; e = twin_[TriMesh::prev(e)]) result.push_back(e);
     if (e == h) return result;
     for (e = h; twin_[e] != kNone;) {
-      e = next(twin_[e]);
+      e = TriMesh::next(twin_[e]);
       result.push_back(e);
     }
     return result;
@@ -144,8 +143,8 @@ class FlatFaceRemover {
 
   /// Removes the face of h and joins what lies beyond its two other edges.
   void close_up(Index h) {
-    const Index a = twin_[next(h)];
-    const Index b = twin_[prev(h)];
+    const Index a = twin_[TriMesh::next(h)];
+    const Index b = twin_[TriMesh::prev(h)];
     if (a != kNone) twin_[a] = b;
     if (b != kNone) twin_[b] = a;
     removed_[h / 3] = 1;
@@ -157,8 +156,8 @@ class FlatFaceRemover {
     if (t == kNone) return false;
     const Index from = soup_.from(h);
     const Index to = soup_.to(h);
-    const Index apex = soup_.from(prev(h));
-    const Index other = soup_.from(prev(t));
+    const Index apex = soup_.from(TriMesh::prev(h));
+    const Index other = soup_.from(TriMesh::prev(t));
     const Triangle first = {apex, other, to};
     const Triangle second = {other, apex, from};
     const double before = std::min(shape(soup_.faces[h / 3]), shape(soup_.faces[t / 3]));
@@ -166,11 +165,11 @@ class FlatFaceRemover {
     const Vec3 normal = area_vector(soup_.faces[t / 3]);
     if (area_vector(first).dot(normal) <= 0 || area_vector(second).dot(normal) <= 0) return false;
     bool ignored = false;
-    const std::vector<Index> around = neighbours(prev(h), ignored);
+    const std::vector<Index> around = neighbours(TriMesh::prev(h), ignored);
     if (std::binary_search(around.begin(), around.end(), other)) return false;
 
-    const std::array<Index, 4> beyond = {twin_[next(h)], twin_[prev(h)], twin_[next(t)],
-                                         twin_[prev(t)]};
+    const std::array<Index, 4> beyond = {twin_[TriMesh::next(h)], twin_[TriMesh::prev(h)],
+                                         twin_[TriMesh::next(t)], twin_[TriMesh::prev(t)]};
     if (!soup_.texture.empty()) flip_texture(h, t);
     const Index f = 3 * (h / 3);
     const Index g = 3 * (t / 3);
@@ -188,8 +187,9 @@ class FlatFaceRemover {
   /// one without area hardly counts.
   void flip_texture(Index h, Index t) {
     const auto at = [&](Index corner) { return soup_.texture[corner / 3][corner % 3]; };
-    const std::array<TexturePoint, 3> first = {at(prev(h)), at(prev(t)), at(t)};
-    const std::array<TexturePoint, 3> second = {at(prev(t)), at(prev(h)), at(next(t))};
+    const std::array<TexturePoint, 3> first = {at(TriMesh::prev(h)), at(TriMesh::prev(t)), at(t)};
+    const std::array<TexturePoint, 3> second = {at(TriMesh::prev(t)), at(TriMesh::prev(h)),
+                                                at(TriMesh::next(t))};
     soup_.texture[h / 3] = first;
     soup_.texture[t / 3] = second;
   }

@@ -18,6 +18,7 @@
 #include "stages/import/divide_long_edges.h"
 #include "stages/import/features.h"
 #include "stages/import/flat_faces.h"
+#include "stages/import/gaps.h"
 #include "stages/import/listed_edges.h"
 #include "stages/import/noise.h"
 #include "stages/import/openings.h"
@@ -177,10 +178,9 @@ void report_near_borders(const import::NearBorders& near, double diagonal, Repor
   report.set("borders.near_edges", near.edges);
   report.set("borders.near_widest", near.widest / diagonal);
   if (near.edges == 0) return;
-  constexpr double kTouching = 1e-9;
   const bool is_one = near.edges == 1;
   const std::string where =
-      near.widest <= kTouching * diagonal
+      near.widest <= import::kCoincident * diagonal
           ? fmt::format("touch{} another border", is_one ? "es" : "")
           : fmt::format("{} within {:.2g} % of the diagonal of another border",
                         is_one ? "lies" : "lie", 100 * near.widest / diagonal);
@@ -347,15 +347,22 @@ std::int64_t count_unreferenced(const PolyMesh& mesh) {
   return std::count(used.begin(), used.end(), 0);
 }
 
-}  // namespace
-
-ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Observer& observer,
-                         const EdgeList* listed) {
-  ImportResult result;
+/// The triangles of a mesh once they are a manifold, and what that took.
+struct Repaired {
+  Soup triangles;
+  TriMesh frame;  ///< origin and diagonal alone
   Repairs repairs;
-  TriMesh frame;  // origin and diagonal
+  double removed_percent = 0;  ///< of the surface
+  import::NearBorders near;    ///< that stay open
+  import::Openness openness;   ///< before faces were taken out
+};
+
+/// \throw InputError where repairs are forbidden or would take too much away, or nothing is left
+Repaired repair(const PolyMesh& soup, const ImportOptions& options, Observer& observer) {
+  Repaired result;
+  auto& [triangles, frame, repairs, removed_percent, near, openness] = result;
   observer.report("triangulating", 0);
-  Soup triangles = import::triangulate(soup, repairs);
+  triangles = import::triangulate(soup, repairs);
   import::drop_degenerate_faces(triangles, repairs);
   place(triangles, frame);
   const double area = import::total_area(triangles);
@@ -365,46 +372,64 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
   std::vector<Index> border = import::weld_borders(triangles, frame.diagonal, repairs);
   border = import::sew_gaps(triangles, border, frame.diagonal, repairs);
   border = import::sew_divided_borders(triangles, border, frame.diagonal, repairs);
-  const import::NearBorders near = import::find_near_borders(triangles, border, frame.diagonal);
+  near = import::find_near_borders(triangles, border, frame.diagonal);
   import::drop_degenerate_faces(triangles, repairs);
-  const import::Openness given = import::openness(triangles);
+  openness = import::openness(triangles);
   import::drop_duplicate_faces(triangles, frame.diagonal, repairs);
   import::remove_flat_faces(triangles, import::make_manifold(triangles, repairs), frame.diagonal,
                             repairs);
   import::drop_pieces_without_area(triangles, frame.diagonal, repairs);
   if (triangles.faces.empty()) throw InputError("the mesh has no face left after the repairs");
   if (options.strict) refuse_repairs(repairs, frame.diagonal);
-  const double removed_percent =
+  removed_percent =
       100 * std::max(0.0, 1 - import::total_area(triangles) / (area - repairs.duplicate_area));
   check_removed(removed_percent, options.most_removed_percent, repairs, frame.diagonal);
+  return result;
+}
 
+/// Finds features by the options' rules, and those listed, by the parts that repairs divided their
+/// edges into.
+import::FeatureCounts mark_features(TriMesh& mesh, const ImportOptions& options,
+                                    const PolyMesh& soup,
+                                    const std::vector<std::vector<import::DividedEdge>>& divisions,
+                                    const EdgeList* listed, Report& report){EdgeList parts;
+for (const std::vector<import::DividedEdge>& divided : divisions) {
+  if (listed == nullptr) break;
+  parts = import::listed_parts(*listed, soup, divided);
+  listed = &parts;
+}
+const import::FeatureCounts features =
+    import::find_features(mesh, feature_rules(options, mesh.diagonal), soup, listed);
+if (options.no_attributes) mesh.attributes = {};
+warn_of_dropped_creases(mesh.diagonal, features, report);
+warn_of_many_seams(mesh, features, report);
+if (!options.no_attributes) warn_of_open_labels(features, report);
+report_noise(mesh, report);
+warn_of_steps(mesh, features, report);
+return features;
+}  // namespace
+
+}  // namespace strake
+
+ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Observer& observer,
+                         const EdgeList* listed) {
+  ImportResult result;
+  const Repaired given = repair(soup, options, observer);
   observer.report("ordering", 0.5);
-  result.mesh = import::assemble(triangles);
+  result.mesh = import::assemble(given.triangles);
   if (options.outwards)
     result.report.set("repairs.turned_components", import::turn_outwards(result.mesh));
   const import::Openness repaired = import::openness(result.mesh);
   import::carry_attributes(soup, result.mesh);
-  result.mesh.origin = frame.origin;
-  result.mesh.diagonal = frame.diagonal;
+  result.mesh.origin = given.frame.origin;
+  result.mesh.diagonal = given.frame.diagonal;
   if (options.denoise > 0) {
     observer.report("taking noise off", 0.6);
     take_noise_off(result.mesh, options, soup, result.report);
   }
   observer.report("finding features", 0.7);
-  EdgeList parts;
-  for (const std::vector<import::DividedEdge>& divided : triangles.divided) {
-    if (listed == nullptr) break;
-    parts = import::listed_parts(*listed, soup, divided);
-    listed = &parts;
-  }
-  const import::FeatureCounts features = import::find_features(
-      result.mesh, feature_rules(options, result.mesh.diagonal), soup, listed);
-  if (options.no_attributes) result.mesh.attributes = {};
-  warn_of_dropped_creases(result.mesh.diagonal, features, result.report);
-  warn_of_many_seams(result.mesh, features, result.report);
-  if (!options.no_attributes) warn_of_open_labels(features, result.report);
-  report_noise(result.mesh, result.report);
-  warn_of_steps(result.mesh, features, result.report);
+  const import::FeatureCounts features =
+      mark_features(result.mesh, options, soup, given.triangles.divided, listed, result.report);
   divide_long_edges(result.mesh, options, result.report);
   build_wedges(result.mesh);
   observer.report("checking", 0.8);
@@ -416,9 +441,9 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
   const Census counts = census(result.mesh);
   report_census(result.mesh, counts, result.report);
   report_orientation(result.mesh, counts, result.report);
-  report_repairs(repairs, removed_percent, frame.diagonal, result.report);
-  report_openings(given, repaired, result.report);
-  report_near_borders(near, frame.diagonal, result.report);
+  report_repairs(given.repairs, given.removed_percent, given.frame.diagonal, result.report);
+  report_openings(given.openness, repaired, result.report);
+  report_near_borders(given.near, given.frame.diagonal, result.report);
   report_features(features, result.report);
   report_attributes(result.mesh.attributes, result.report);
   observer.report("done", 1);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "common/geometry/angles.h"
 #include "common/geometry/frames.h"
 #include "common/geometry/mesh_measures.h"
 #include "common/geometry/topology/vertex_ring.h"
@@ -12,7 +13,7 @@
 namespace strake::import {
 namespace {
 
-constexpr double kLeastMissing = 20 * M_PI / 180;
+constexpr double kLeastMissing = 20 * kDegree;
 constexpr double kMostAround = 0.5;  ///< share of it
 /// Length of the sum of normals around a tip, as a share of their lengths: where it is longer no
 /// cone misses so much. Most vertices need no angles for that.

@@ -8,11 +8,10 @@
 #include <tuple>
 #include <utility>
 
+#include "common/core/tri_mesh.h"
+
 namespace strake::import {
 namespace {
-
-Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
-Index prev(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
 void pair_up(std::vector<Index>& twin, Index a, Index b) {
   twin[a] = b;
@@ -177,7 +176,7 @@ std::vector<Flap> sort_flaps(const Soup& soup, std::span<const Index> halfedges)
   const Vec3 x = direction.unitOrthogonal();
   const Vec3 y = direction.cross(x);
   for (const Index h : halfedges) {
-    const Vec3 apex = soup.positions[soup.from(prev(h))] - origin;
+    const Vec3 apex = soup.positions[soup.from(TriMesh::prev(h))] - origin;
     if (!(direction.cross(apex).norm() > 0)) return {};
     flaps.push_back({h, soup.from(h) == from, std::atan2(apex.dot(y), apex.dot(x))});
   }
@@ -253,12 +252,13 @@ void split_vertices(Soup& soup, const std::vector<Index>& twin, Repairs& repairs
       taken[v] = 1;
     }
     Index start = h;
-    while (twin[start] != kNone && next(twin[start]) != h) start = next(twin[start]);
+    while (twin[start] != kNone && TriMesh::next(twin[start]) != h)
+      start = TriMesh::next(twin[start]);
     Index corner = start;
     do {
       seen[corner] = 1;
       faces[corner / 3][corner % 3] = v;
-      corner = twin[prev(corner)];
+      corner = twin[TriMesh::prev(corner)];
     } while (corner != kNone && corner != start);
   }
   soup.faces = std::move(faces);
@@ -269,10 +269,10 @@ void split_vertices(Soup& soup, const std::vector<Index>& twin, Repairs& repairs
 void split_texture(Soup& soup, Index e) {
   std::array<TexturePoint, 3>& old = soup.texture[e / 3];
   const TexturePoint from = old[e % 3];
-  const TexturePoint to = old[next(e) % 3];
+  const TexturePoint to = old[TriMesh::next(e) % 3];
   const TexturePoint middle = {0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1])};
-  const std::array<TexturePoint, 3> added = {middle, to, old[prev(e) % 3]};
-  old[next(e) % 3] = middle;
+  const std::array<TexturePoint, 3> added = {middle, to, old[TriMesh::prev(e) % 3]};
+  old[TriMesh::next(e) % 3] = middle;
   soup.texture.push_back(added);
 }
 
@@ -287,14 +287,14 @@ void split_edge(Soup& soup, std::vector<Index>& twin, Index h) {
   // Face (from, to, apex) keeps (from, middle, apex) and gives (middle, to, apex) to a new face.
   const auto cut = [&](Index e) {
     const Index added = soup.face_count();
-    const Triangle face = {middle, soup.to(e), soup.from(prev(e))};
+    const Triangle face = {middle, soup.to(e), soup.from(TriMesh::prev(e))};
     soup.faces.push_back(face);
     soup.source_face.push_back(Index{soup.source_face[e / 3]});
     if (!soup.texture.empty()) split_texture(soup, e);
     soup.faces[e / 3][(e % 3 + 1) % 3] = middle;
     twin.insert(twin.end(), 3, kNone);
-    if (twin[next(e)] != kNone) pair_up(twin, 3 * added + 1, twin[next(e)]);
-    pair_up(twin, next(e), 3 * added + 2);
+    if (twin[TriMesh::next(e)] != kNone) pair_up(twin, 3 * added + 1, twin[TriMesh::next(e)]);
+    pair_up(twin, TriMesh::next(e), 3 * added + 2);
     return 3 * added;
   };
   const Index first = cut(h);

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "common/core/error.h"
+#include "common/core/text.h"
 #include "stages/import/import.h"
 
 namespace strake {
@@ -35,9 +36,7 @@ Stage import_stage() {
         const auto& input = inputs.get<Polygons>("input");
         const std::vector<std::string> defects = input.read.warnings();
         if (options.strict && !defects.empty()) {
-          std::string list;
-          for (const std::string& defect : defects) list += (list.empty() ? "" : ", ") + defect;
-          throw InputError(inputs.at("input").origin + ": " + list +
+          throw InputError(inputs.at("input").origin + ": " + join_words(defects) +
                            "; leave --strict out to go on without");
         }
         ImportResult result = import_file(inputs, options, observer);

@@ -17,18 +17,10 @@
 
 #include "common/core/error.h"
 #include "common/geometry/angles.h"
+#include "common/geometry/poly_topology/face_shape.h"
 
 namespace strake::import {
 namespace {
-
-Vec3 newell_normal(const std::vector<Vec3>& positions, std::span<const Index> polygon) {
-  Vec3 normal = Vec3::Zero();
-  const Vec3& base = positions[polygon[0]];
-  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
-    normal += (positions[polygon[i]] - base).cross(positions[polygon[i + 1]] - base);
-  }
-  return normal;
-}
 
 /// Height of a triangle over its longest edge divided by that edge; negative where it is turned
 /// over against `normal`, 0 without area.

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "stages/import/gaps.h"
+
 namespace strake::import {
 namespace {
 
@@ -164,13 +166,11 @@ std::vector<Index> find_borders(const Soup& soup) {
 }
 
 std::vector<Index> weld_borders(Soup& soup, double diagonal, Repairs& repairs) {
-  constexpr double kTouching = 1e-9;
-  constexpr double kNearlyWelded = 1e-6;
   Index edge_count = 0;
   const std::vector<Index> border = border_halfedges(soup, edge_count);
   if (border.empty()) return border;
   const bool is_unwelded = 2 * border.size() > static_cast<std::size_t>(edge_count);
-  const double tolerance = (is_unwelded ? kNearlyWelded : kTouching) * diagonal;
+  const double tolerance = (is_unwelded ? kRounding : kCoincident) * diagonal;
 
   std::vector<Index> vertices;
   for (const Index h : border) vertices.insert(vertices.end(), {soup.from(h), soup.to(h)});

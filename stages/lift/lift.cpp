@@ -16,10 +16,6 @@
 namespace strake {
 namespace {
 
-/// Barycentric coordinates below this are none.
-constexpr double kNothing = 1e-9;
-/// Least cosine between the normals of two faces that are the same place of the surface.
-constexpr double kSameWay = 0.5;
 /// Barycentric coordinate of a foot beside a line that it does not belong to.
 constexpr double kBesideLine = 1e-6;
 
@@ -36,16 +32,13 @@ class Lift {
 
   /// \param at  on the coarser mesh  \param place  that the foot is of, relative to the origin
   [[nodiscard]] SurfacePoint foot(const SurfacePoint& at, const Vec3& place) const {
-    for (int i = 0; i < 3; ++i) {
-      const Index vertex = parent_of(3 * at.face + i);
-      if (at.barycentric[i] > 1 - kNothing && is_on_line(vertex)) return at_vertex(vertex);
+    const Index corner = corner_at(at);
+    if (corner != kNone && is_on_line(parent_of(corner))) {
+      return point_at_vertex(mesh_, parent_of(corner));
     }
-    for (int i = 0; i < 3; ++i) {
-      const Index h = 3 * at.face + i;
-      if (at.barycentric[(i + 2) % 3] >= kNothing || !coarse_.is_barrier(h)) continue;
-      return on_edge(parent_of(h), parent_of(TriMesh::next(h)), at.barycentric[(i + 1) % 3]);
-    }
-    return nearest(at, place);
+    const Index h = edge_at(at, [&](Index side) { return coarse_.is_barrier(side); });
+    if (h == kNone) return nearest(at, place);
+    return on_edge(parent_of(h), parent_of(TriMesh::next(h)), share_along(at, h));
   }
 
  private:
@@ -55,31 +48,21 @@ class Lift {
   }
 
   [[nodiscard]] bool is_on_line(Index vertex) const {
-    bool is = mesh_.is_corner[vertex] != 0;
-    for_each_outgoing(mesh_, vertex, [&](Index h) { is = is || mesh_.is_barrier(h); });
-    return is;
-  }
-
-  [[nodiscard]] SurfacePoint at_vertex(Index vertex) const {
-    const Index h = mesh_.vertex_out[vertex];
-    SurfacePoint point{TriMesh::face_of(h), {0, 0, 0}};
-    point.barycentric[h % 3] = 1;
-    return point;
+    return mesh_.is_corner[vertex] != 0 ||
+           any_outgoing(mesh_, vertex, [&](Index h) { return mesh_.is_barrier(h); });
   }
 
   /// \param share  of the way from one end to the other
   [[nodiscard]] SurfacePoint on_edge(Index from, Index to, double share) const {
-    SurfacePoint point;
-    for_each_outgoing(mesh_, from, [&](Index h) {
-      // Of a face that has the edge as the one or the other of its two sides there.
-      if (point.face != kNone) return;
-      const Index last = TriMesh::prev(h);
-      const bool is_out = mesh_.to(h) == to;
-      if (!is_out && mesh_.from(last) != to) return;
-      point.face = TriMesh::face_of(h);
-      point.barycentric[h % 3] = 1 - share;
-      point.barycentric[is_out ? TriMesh::next(h) % 3 : last % 3] = share;
-    });
+    const auto is_next = [&](Index h) { return mesh_.from(TriMesh::prev(h)) == to; };
+    // Of a face that has the edge as the one or the other of its two sides there.
+    const Index h =
+        find_outgoing(mesh_, from, [&](Index out) { return mesh_.to(out) == to || is_next(out); });
+    if (h == kNone) return {};
+    if (mesh_.to(h) == to) return point_along(h, share);
+    SurfacePoint point{TriMesh::face_of(h), {0, 0, 0}};
+    point.barycentric[h % 3] = 1 - share;
+    point.barycentric[TriMesh::prev(h) % 3] = share;
     return point;
   }
 
@@ -92,9 +75,9 @@ class Lift {
     const ClosestPoint found =
         surface_.closest_if(place, (place - mesh_.positions[known]).norm(), [&](Index f) {
           return f == known_face ||
-                 (normals_[f].dot(side) > kSameWay && components_.has_both(f, known_face));
+                 (normals_[f].dot(side) > kSameSheet && components_.has_both(f, known_face));
         });
-    SurfacePoint point = found.triangle == kNone ? at_vertex(known)
+    SurfacePoint point = found.triangle == kNone ? point_at_vertex(mesh_, known)
                                                  : SurfacePoint{found.triangle, found.barycentric};
     // It may touch a line, but is not of it.
     for (double& share : point.barycentric) share = (1 - 3 * kBesideLine) * share + kBesideLine;
@@ -117,10 +100,8 @@ QuadMesh lift_quads(const TriMesh& mesh, const TriMesh& coarse, const QuadMesh& 
   lifted.mesh_id = mesh.id;
   VertexProvenance& provenance = lifted.provenance;
   tbb::parallel_for(Index{0}, quads.mesh.vertex_count(), [&](Index v) {
-    const SurfacePoint foot = lift.foot({quads.provenance.face[v], quads.provenance.barycentric[v]},
-                                        quads.mesh.positions[v] - mesh.origin);
-    provenance.face[v] = foot.face;
-    provenance.barycentric[v] = foot.barycentric;
+    set_foot(provenance, v,
+             lift.foot(foot_of(quads.provenance, v), quads.mesh.positions[v] - mesh.origin));
   });
   lifted.mesh.attributes = carry_attributes(mesh, lifted.mesh, provenance);
   return lifted;

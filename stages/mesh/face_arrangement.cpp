@@ -50,11 +50,12 @@ void FaceArrangement::walk_outline(Index face, Index first) {
     if (info.vertex != kNone) {
       while (mesh_.faces[face][corner] != info.vertex) ++corner;
       barycentric_.push_back(Vec3::Unit(corner));
-    } else if (info.face == face) {
-      barycentric_.emplace_back(info.barycentric[0], info.barycentric[1], info.barycentric[2]);
+    } else if (info.at.face == face) {
+      const auto& [a, b, c] = info.at.barycentric;
+      barycentric_.emplace_back(a, b, c);
     } else {  // stored in the face across the edge
       // The twin starts where this edge ends: its origin's weight is the share of the way here.
-      const double lambda = info.barycentric[mesh_.twin[3 * face + corner] % 3];
+      const double lambda = info.at.barycentric[mesh_.twin[3 * face + corner] % 3];
       barycentric_.push_back((1 - lambda) * Vec3::Unit(corner) +
                              lambda * Vec3::Unit((corner + 1) % 3));
     }

@@ -49,8 +49,9 @@ enum class Triangles : std::uint8_t {
 double local_size(const TriMesh& mesh, const LineSet& lines, const SurfaceNode& node) {
   double size = 0;
   for (int i = 0; i < 3; ++i) {
-    const Index w = mesh.face_wedges[node.face][i];
-    size += node.barycentric[i] * std::min(lines.spacing_along_min[w], lines.spacing_along_max[w]);
+    const Index w = mesh.face_wedges[node.at.face][i];
+    size +=
+        node.at.barycentric[i] * std::min(lines.spacing_along_min[w], lines.spacing_along_max[w]);
   }
   return size;
 }
@@ -62,9 +63,9 @@ double wanted_length(const TriMesh& mesh, const LineSet& lines, const PolygonGra
   double along_min = 0;
   double along_max = 0;
   for (int i = 0; i < 3; ++i) {
-    const Index w = mesh.face_wedges[node.face][i];
-    along_min += node.barycentric[i] * lines.spacing_along_min[w];
-    along_max += node.barycentric[i] * lines.spacing_along_max[w];
+    const Index w = mesh.face_wedges[node.at.face][i];
+    along_min += node.at.barycentric[i] * lines.spacing_along_min[w];
+    along_max += node.at.barycentric[i] * lines.spacing_along_max[w];
   }
   const Index line = graph.line(dart);
   if (line != kNone && lines.family[line] == LineFamily::minimum) return along_min;
@@ -102,7 +103,7 @@ bool find_starved(const TriMesh& mesh, const std::vector<Index>& component,
   std::vector<double> enclosed(triangles.size(), 0);
   graph.for_each_cell([&](Index d, const DartLoop& cell) {
     if (cell.size() < 3) return;
-    const Index c = component[graph.node(g.from(d)).face];
+    const Index c = component[graph.node(g.from(d)).at.face];
     ++cells[c];
     enclosed[c] +=
         least_cone_volume(apex[c], corner_positions(graph, cell), volume[c] < 0 ? -1 : 1);
@@ -128,7 +129,7 @@ void keep_triangles(const std::vector<Index>& component, const std::vector<Trian
                     Overlay& overlay) {
   for (Index e = 0; e < overlay.graph.dart_count() / 2; ++e) {
     if (overlay.kind[e] != EdgeKind::surface) continue;
-    const Index face = overlay.nodes[overlay.graph.from(2 * e)].face;
+    const Index face = overlay.nodes[overlay.graph.from(2 * e)].at.face;
     if (triangles[component[face]] != Triangles::merged) overlay.kind[e] = EdgeKind::line;
   }
 }
@@ -139,7 +140,7 @@ void hold_triangles(const std::vector<Index>& component, const std::vector<Trian
   const DartGraph& g = graph.graph();
   for (Index d = 0; d < g.dart_count(); d += 2) {
     if (!g.is_alive(d) || graph.is_barrier(d)) continue;
-    if (triangles[component[graph.node(g.from(d)).face]] == Triangles::held) graph.hold(d);
+    if (triangles[component[graph.node(g.from(d)).at.face]] == Triangles::held) graph.hold(d);
   }
 }
 
@@ -156,8 +157,8 @@ QuadMesh assemble(const TriMesh& mesh, const PolygonGraph& graph) {
       if (vertex_of[n] == kNone) {
         vertex_of[n] = result.mesh.vertex_count();
         result.mesh.positions.push_back(graph.position(n) + mesh.origin);
-        result.provenance.face.push_back(graph.node(n).face);
-        result.provenance.barycentric.push_back(graph.node(n).barycentric);
+        result.provenance.face.push_back(graph.node(n).at.face);
+        result.provenance.barycentric.push_back(graph.node(n).at.barycentric);
         std::array<Index, 2> lines = {kNone, kNone};
         Index around = other;
         do {

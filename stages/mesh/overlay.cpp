@@ -243,17 +243,13 @@ SurfaceNode OverlayNodes::operator[](Index n) const {
   if (n >= first_crossing()) return crossings_[n - first_crossing()];
   SurfaceNode node;
   if (n < mesh_->vertex_count()) {
-    const Index out = mesh_->vertex_out[n];
     node.position = mesh_->positions[n];
-    node.face = TriMesh::face_of(out);
-    node.barycentric[out % 3] = 1;
+    node.at = point_at_vertex(*mesh_, n);
     node.vertex = n;
   } else {
     const LinePoint& point = edge_points_[n - mesh_->vertex_count()];
     node.position = line_point_position(*mesh_, point);
-    node.face = TriMesh::face_of(point.halfedge);
-    node.barycentric[point.halfedge % 3] = 1 - point.lambda;
-    node.barycentric[TriMesh::next(point.halfedge) % 3] = point.lambda;
+    node.at = point_along(point.halfedge, point.lambda);
   }
   return node;
 }
@@ -265,12 +261,8 @@ Index OverlayNodes::add_edge_point(const LinePoint& point) {
 
 Index OverlayNodes::add_crossing(Index face, const Vec3& barycentric) {
   SurfaceNode node;
-  node.face = face;
-  node.position = Vec3::Zero();
-  for (int i = 0; i < 3; ++i) {
-    node.barycentric[i] = barycentric[i];
-    node.position += barycentric[i] * mesh_->positions[mesh_->faces[face][i]];
-  }
+  node.at = {face, {barycentric[0], barycentric[1], barycentric[2]}};
+  node.position = place_of(*mesh_, node.at);
   crossings_.push_back(node);
   return size() - 1;
 }

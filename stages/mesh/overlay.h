@@ -1,11 +1,11 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "common/core/line_set.h"
 #include "common/core/observer.h"
 #include "common/core/tri_mesh.h"
+#include "common/geometry/surface_point.h"
 #include "stages/mesh/dart_graph.h"
 
 namespace strake {
@@ -21,8 +21,7 @@ enum class EdgeKind : std::uint8_t {
 struct SurfaceNode {
   Vec3 position;
   Vec3 offset = Vec3::Zero();  ///< of the position from the surface: on ragged boundaries
-  Index face = kNone;
-  std::array<double, 3> barycentric{};
+  SurfacePoint at;
   Index vertex = kNone;  ///< the mesh vertex it is, or kNone
 };
 

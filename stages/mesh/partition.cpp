@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/geometry/angles.h"
 #include "common/geometry/frames.h"
 #include "stages/mesh/cell_shape.h"
 #include "stages/mesh/off_surface.h"
@@ -13,7 +14,7 @@ namespace strake {
 namespace {
 
 /// Reflex corners up to this angle are moved into line; larger ones divide their face.
-constexpr double kMovableAngle = 200 * M_PI / 180;
+constexpr double kMovableAngle = 200 * kDegree;
 /// How far inside the straight line a moved corner comes to lie, as a share of its edges.
 constexpr double kBulge = 1e-3;
 constexpr int kMoveRounds = 8;

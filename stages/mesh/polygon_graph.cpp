@@ -59,7 +59,7 @@ std::vector<char> kept_nodes(const Overlay& overlay, const BorderCourse& borders
 /// A node of the overlay, on the course of the boundary where it is on that.
 SurfaceNode placed(const TriMesh& mesh, const BorderCourse& borders, SurfaceNode node) {
   if (borders.offset.empty()) return node;
-  node.offset = borders.offset_at(mesh, {node.face, node.barycentric});
+  node.offset = borders.offset_at(mesh, node.at);
   node.position += node.offset;
   return node;
 }
@@ -334,7 +334,7 @@ void PolygonGraph::dissolve(Index dart) {
 }
 
 Vec3 PolygonGraph::surface_normal(Index n) const {
-  return face_cross(*mesh_, nodes_[n].face).stableNormalized();
+  return face_cross(*mesh_, nodes_[n].at.face).stableNormalized();
 }
 
 void PolygonGraph::hold(Index dart) {
@@ -369,24 +369,19 @@ SurfaceNode PolygonGraph::between(const SurfaceNode& a, const SurfaceNode& b, do
     const Vec3 offset = on_surface - origin;
     Vec3 bary = chart.barycentric(Vec2(x.dot(offset), y.dot(offset))).cwiseMax(0.0);
     bary /= bary.sum();
-    Vec3 foot = Vec3::Zero();
-    for (int i = 0; i < 3; ++i) foot += bary[i] * mesh_->positions[mesh_->faces[f][i]];
-    const double distance = (foot - on_surface).squaredNorm();
+    const SurfacePoint foot{f, {bary[0], bary[1], bary[2]}};
+    const double distance = (place_of(*mesh_, foot) - on_surface).squaredNorm();
     if (!(distance < best)) return;
     best = distance;
-    node.face = f;
-    node.barycentric = {bary[0], bary[1], bary[2]};
+    node.at = foot;
   };
-  for (const Index f : {a.face, b.face}) {
+  for (const Index f : {a.at.face, b.at.face}) {
     consider(f);
     for (Index h = 3 * f; h < 3 * f + 3; ++h) {
       if (mesh_->twin[h] != kNone) consider(TriMesh::face_of(mesh_->twin[h]));
     }
   }
-  if (node.face == kNone) {
-    node.face = a.face;
-    node.barycentric = a.barycentric;
-  }
+  if (node.at.face == kNone) node.at = a.at;
   return node;
 }
 

@@ -37,10 +37,8 @@ std::vector<Index> sharp_points(const TriMesh& mesh) {
   std::vector<Index> points;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     if (mesh.is_corner[v] == 0) continue;
-    bool is_on_line = false;
-    for_each_outgoing(mesh, v, [&](Index h) {
-      is_on_line = is_on_line || mesh.is_barrier(h) || mesh.is_barrier(TriMesh::prev(h));
-    });
+    const bool is_on_line = any_outgoing(
+        mesh, v, [&](Index h) { return mesh.is_barrier(h) || mesh.is_barrier(TriMesh::prev(h)); });
     if (!is_on_line) points.push_back(v);
   }
   return points;
@@ -149,12 +147,14 @@ class SharpPoints {
     return found == faces.end() ? kNone : *found;
   }
 
-  /// Corners of the faces around a vertex that are beside it.
+  /// Corners of the faces around a vertex that come after it, as they were: faces that are divided
+  /// since may have the vertex no more.
   [[nodiscard]] std::vector<Index> neighbours(Index v) const {
     std::vector<Index> result;
     for (const Index f : faces_around_[v]) {
-      const auto i = std::ranges::find(faces_[f], v) - faces_[f].begin();
-      result.push_back(faces_[f][(static_cast<std::size_t>(i) + 1) % faces_[f].size()]);
+      const std::span<const Index> face = quads_.mesh.face(f);
+      const auto i = static_cast<std::size_t>(std::ranges::find(face, v) - face.begin());
+      result.push_back(face[(i + 1) % face.size()]);
     }
     return result;
   }
@@ -211,8 +211,7 @@ class SharpPoints {
     if (std::ranges::any_of(faces_around_[v], [&](Index f) { return is_changed_[f] != 0; })) {
       return false;
     }
-    const VertexProvenance& feet = quads_.provenance;
-    if (!lines_.places({feet.face[v], feet.barycentric[v]}).empty()) return false;
+    if (!lines_.places(foot_of(quads_.provenance, v)).empty()) return false;
     return std::ranges::none_of(faces_around_[v], [&](Index f) {
       const auto is_concave = [](const std::vector<Vec3>& corners) {
         return is_concave_face(corners, all_of(corners));
@@ -279,20 +278,15 @@ class SharpPoints {
   }
 
   void put(Index v, Index tip) {
-    const Index corner = mesh_.vertex_out[tip];
     quads_.mesh.positions[v] = mesh_.positions[tip] + mesh_.origin;
-    quads_.provenance.face[v] = TriMesh::face_of(corner);
-    quads_.provenance.barycentric[v] = {0, 0, 0};
-    quads_.provenance.barycentric[v][corner % 3] = 1;
+    set_foot(quads_.provenance, v, point_at_vertex(mesh_, tip));
     for (const Index f : faces_around_[v]) is_changed_[f] = 1;
   }
 
   void add(Index tip, Index cell, const std::vector<std::size_t>& spokes) {
     const Index v = quads_.mesh.vertex_count();
     quads_.mesh.positions.emplace_back();
-    quads_.provenance.face.emplace_back();
-    quads_.provenance.barycentric.emplace_back();
-    quads_.provenance.lines.push_back({kNone, kNone});
+    add_foot(quads_.provenance, {});
     faces_around_.push_back({cell});
     put(v, tip);
     std::vector<std::vector<Index>> parts = divided(faces_[cell], v, spokes);

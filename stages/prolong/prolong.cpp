@@ -12,14 +12,13 @@
 #include "common/geometry/frames.h"
 #include "common/geometry/mesh_measures.h"
 #include "common/geometry/surface_distance/surface_distance.h"
+#include "common/geometry/topology/own_component.h"
 
 namespace strake {
 namespace {
 
 using Complex = std::complex<double>;
 
-/// Least cosine between normals of the same place of the surface.
-constexpr double kSameWay = 0.5;
 /// How much farther than the nearest face one may be that faces the same way, in lengths of the
 /// longest edge of that one.
 constexpr double kFarther = 2;
@@ -47,7 +46,7 @@ class Descent {
     const Vec3& p = mesh_.positions[mesh_.wedge_vertex[wedge]];
     ClosestPoint at = surface_.closest_near(p, guess);
     guess = at.triangle;
-    const auto faces_same_way = [&](Index f) { return face_normals_[f].dot(normal) > kSameWay; };
+    const auto faces_same_way = [&](Index f) { return face_normals_[f].dot(normal) > kSameSheet; };
     if (!faces_same_way(at.triangle)) {
       const double reach = at.distance + kFarther * longest_edge(at.triangle);
       const ClosestPoint beyond = surface_.closest_if(p, reach, faces_same_way);

@@ -51,17 +51,13 @@ std::vector<SurfaceLines::Place> BoundaryWays::way(const SurfacePoint& from,
 }
 
 SurfaceLines::Place BoundaryWays::place(const SurfacePoint& point) const {
-  for (int i = 0; i < 3; ++i) {
-    if (point.barycentric[i] < 1 - kOnEdge) continue;
-    const Index h = mesh_.vertex_out[mesh_.faces[point.face][i]];
+  const Index corner = corner_at(point);
+  if (corner != kNone) {
+    const Index h = mesh_.vertex_out[mesh_.from(corner)];
     return mesh_.is_boundary(h) ? SurfaceLines::Place{h, 0} : SurfaceLines::Place{};
   }
-  for (int i = 0; i < 3; ++i) {
-    const Index h = 3 * point.face + i;
-    if (point.barycentric[(i + 2) % 3] >= kOnEdge || !mesh_.is_boundary(h)) continue;
-    return {h, point.barycentric[(i + 1) % 3]};
-  }
-  return {};
+  const Index h = edge_at(point, [&](Index side) { return mesh_.is_boundary(side); });
+  return h != kNone ? SurfaceLines::Place{h, share_along(point, h)} : SurfaceLines::Place{};
 }
 
 double BoundaryWays::position_on_loop(const SurfaceLines::Place& place) const {

@@ -4,9 +4,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <optional>
 
 #include "common/geometry/cell_error/cell_error.h"
 #include "common/geometry/nearest_on_surface.h"
+#include "common/geometry/poly_topology/vertex_faces.h"
 
 namespace strake {
 namespace {
@@ -23,7 +25,7 @@ std::vector<Target> cells_beyond(const TriMesh& mesh, const QuadMesh& quads,
   if (excess.empty()) return {};
   std::vector<double> distance(static_cast<std::size_t>(quads.mesh.face_count()), 0);
   const auto note = [&](Index cell, double d) { distance[cell] = std::max(distance[cell], d); };
-  std::vector<std::vector<Index>> cells_around(on_surface ? quads.mesh.positions.size() : 0);
+  std::optional<VertexFaces> around;
   std::vector<Index> nearest(on_surface ? excess.size() : 0, kNone);  // vertices, on the surface
   if (on_surface) {
     const NearestOnSurface search(mesh, quads);
@@ -31,16 +33,14 @@ std::vector<Target> cells_beyond(const TriMesh& mesh, const QuadMesh& quads,
       const Excess& e = excess[i];
       if (e.input_face != kNone) nearest[i] = search.vertex(e.input_face, e.place);
     });
-    for (Index f = 0; f < quads.mesh.face_count(); ++f) {
-      for (const Index v : quads.mesh.face(f)) cells_around[v].push_back(f);
-    }
+    around.emplace(quads.mesh);
   }
   for (std::size_t i = 0; i < excess.size(); ++i) {
     const Excess& e = excess[i];
     if (!on_surface || e.input_face == kNone) {
       note(e.cell, e.distance);
     } else if (nearest[i] != kNone) {
-      for (const Index f : cells_around[nearest[i]]) note(f, e.distance);
+      for (const Index f : around->faces(nearest[i])) note(f, e.distance);
     }
   }
   std::vector<Target> targets;

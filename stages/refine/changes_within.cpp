@@ -79,12 +79,9 @@ void refill_within(ToleranceProof& proof, QuadMesh& quads) {
 
 void pair_odd_cells_within(ToleranceProof& proof, const SurfacePoints& points,
                            const std::vector<char>& may_change, QuadMesh& quads) {
-  const auto foot = [&](Index v) {
-    return SurfacePoint{quads.provenance.face[v], quads.provenance.barycentric[v]};
-  };
   const auto may_remove = [&](Index a, Index b) {
     if (!may_change.empty() && (may_change[a] == 0 || may_change[b] == 0)) return false;
-    return !points.has_line_along(foot(a), foot(b));
+    return !points.has_line_along(foot_of(quads.provenance, a), foot_of(quads.provenance, b));
   };
   std::set<std::vector<Index>> refused;
   std::vector<Redivision> changes = find_redivisions(quads.mesh, may_remove, refused);

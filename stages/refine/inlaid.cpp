@@ -49,9 +49,7 @@ Inlaid InlayHost::with(const std::vector<Inlay>& inlays) const {
     for (const SurfacePoint& point : inlay.points) {
       number.push_back(quads.mesh.vertex_count());
       quads.mesh.positions.push_back(place_of(surfaces_.mesh(), point) + surfaces_.mesh().origin);
-      quads.provenance.face.push_back(point.face);
-      quads.provenance.barycentric.push_back(point.barycentric);
-      quads.provenance.lines.push_back({kNone, kNone});
+      add_foot(quads.provenance, point);
     }
     for (std::size_t i = 0; i < inlay.faces.size(); ++i) {
       const auto& [a, b, c] = inlay.faces[i];

@@ -181,14 +181,11 @@ InlayCutter::InlayCutter(const ComparedSurfaces& surfaces, const QuadMesh& quads
       quads_(quads),
       most_whole_(most_whole),
       lines_(surfaces.mesh()),
-      cells_around_(quads.mesh.positions.size()) {
-  for (Index f = 0; f < quads.mesh.face_count(); ++f) {
-    for (const Index v : quads.mesh.face(f)) cells_around_[v].push_back(f);
-  }
-}
+      around_(quads.mesh) {}
 
 void InlayCutter::add_around(Index vertex, std::set<Index>& cells) const {
-  cells.insert(cells_around_[vertex].begin(), cells_around_[vertex].end());
+  const std::span<const Index> faces = around_.faces(vertex);
+  cells.insert(faces.begin(), faces.end());
 }
 
 void InlayCutter::add_ring(std::set<Index>& cells) const {
@@ -199,8 +196,8 @@ void InlayCutter::add_ring(std::set<Index>& cells) const {
 
 /// The other cell at an edge of a cell; kNone at the boundary.
 Index InlayCutter::neighbour(Index cell, Index a, Index b) const {
-  for (const Index f : cells_around_[a]) {
-    if (f != cell && std::ranges::binary_search(cells_around_[b], f)) return f;
+  for (const Index f : around_.faces(a)) {
+    if (f != cell && std::ranges::binary_search(around_.faces(b), f)) return f;
   }
   return kNone;
 }
@@ -249,7 +246,7 @@ bool InlayCutter::add_band(std::span<const Index> outer, std::span<const Index> 
   std::vector<End> outer_ends;
   for (const Index corner : outer) {
     const Index vertex = inlay.outline[corner];
-    outer_ends.push_back({foot_of(vertex), surfaces_.positions()[vertex]});
+    outer_ends.push_back({foot_of(quads_.provenance, vertex), surfaces_.positions()[vertex]});
   }
   std::vector<End> inner_ends;
   for (const Index corner : inner) {

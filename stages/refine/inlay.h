@@ -9,6 +9,7 @@
 #include "common/core/poly_mesh.h"
 #include "common/geometry/cell_error/compared_surfaces.h"
 #include "common/geometry/patch_fill/patch_outline.h"
+#include "common/geometry/poly_topology/vertex_faces.h"
 #include "common/geometry/surface_lines.h"
 #include "common/geometry/surface_point.h"
 
@@ -50,9 +51,6 @@ class InlayCutter {
   struct Patch;
   class Cover;
 
-  [[nodiscard]] SurfacePoint foot_of(Index vertex) const {
-    return {quads_.provenance.face[vertex], quads_.provenance.barycentric[vertex]};
-  }
   [[nodiscard]] std::optional<Patch> patch_of(std::set<Index> cells) const;
   [[nodiscard]] std::optional<Inlay> whole_component(std::vector<Index> cells) const;
   [[nodiscard]] Index neighbour(Index cell, Index a, Index b) const;
@@ -65,7 +63,7 @@ class InlayCutter {
   const QuadMesh& quads_;
   std::size_t most_whole_;
   SurfaceLines lines_;
-  std::vector<std::vector<Index>> cells_around_;  ///< [V]
+  VertexFaces around_;  ///< of the result
 };
 
 }  // namespace strake

@@ -8,6 +8,7 @@
 
 #include "common/geometry/patch_fill/drop_unused_vertices.h"
 #include "common/geometry/poly_topology/poly_edges.h"
+#include "common/geometry/poly_topology/vertex_faces.h"
 
 namespace strake {
 namespace {
@@ -23,12 +24,9 @@ class Merging {
  public:
   explicit Merging(const PolyMesh& mesh)
       : mesh_(mesh),
-        faces_of_(mesh.positions.size()),
+        around_(mesh),
         is_rim_(mesh.positions.size(), 0),
         is_near_(mesh.positions.size(), 0) {
-    for (Index f = 0; f < mesh.face_count(); ++f) {
-      for (const Index v : mesh.face(f)) faces_of_[v].push_back(f);
-    }
     const PolyEdges edges = collect_edges(mesh);
     for (Index e = 0; e < edges.edge_count(); ++e) {
       if (edges.sides_of(e).size() > 1) continue;
@@ -49,7 +47,7 @@ class Merging {
         instead[u + w - stays] = stays;
         for (const Index v : {u, w}) {
           is_near_[v] = 1;
-          for (const Index n : neighbours(v)) is_near_[n] = 1;
+          for (const Index n : around_.neighbours(v)) is_near_[n] = 1;
         }
       }
     }
@@ -75,25 +73,11 @@ class Merging {
     return pairs;
   }
 
-  /// The vertices at the other ends of edges, ascending.
-  [[nodiscard]] std::vector<Index> neighbours(Index v) const {
-    std::vector<Index> result;
-    for (const Index f : faces_of_[v]) {
-      const std::span<const Index> face = mesh_.face(f);
-      const auto at = static_cast<std::size_t>(std::ranges::find(face, v) - face.begin());
-      result.push_back(face[(at + 1) % face.size()]);
-      result.push_back(face[(at + face.size() - 1) % face.size()]);
-    }
-    std::ranges::sort(result);
-    result.erase(std::unique(result.begin(), result.end()), result.end());
-    return result;
-  }
-
   /// The link condition: what both have in common is only what goes with the faces between them.
   [[nodiscard]] bool may_merge(Index u, Index w) const {
     if (is_near_[u] != 0 || is_near_[w] != 0) return false;
-    const std::vector<Index> of_u = neighbours(u);
-    const std::vector<Index> of_w = neighbours(w);
+    const std::vector<Index> of_u = around_.neighbours(u);
+    const std::vector<Index> of_w = around_.neighbours(w);
     const bool are_joined = std::ranges::binary_search(of_u, w);
     const int rims = is_rim_[u] + is_rim_[w];
     if (rims > (are_joined ? 1 : 0)) return false;
@@ -101,7 +85,7 @@ class Merging {
     std::ranges::set_intersection(of_u, of_w, std::back_inserter(in_common));
     std::vector<Index> go_between;
     std::size_t between = 0;
-    for (const Index f : faces_of_[u]) {
+    for (const Index f : around_.faces(u)) {
       const std::span<const Index> face = mesh_.face(f);
       if (std::ranges::find(face, w) == face.end()) continue;
       ++between;
@@ -113,15 +97,15 @@ class Merging {
     }
     std::ranges::sort(go_between);
     const auto has_enough = [&](Index v) {
-      return is_near_[v] == 0 && faces_of_[v].size() >= kLeastFaces;
+      return is_near_[v] == 0 && around_.faces(v).size() >= kLeastFaces;
     };
     return between == (are_joined ? 2U : 1U) && in_common == go_between &&
            std::ranges::all_of(go_between, has_enough);
   }
 
   const PolyMesh& mesh_;
-  std::vector<std::vector<Index>> faces_of_;  ///< [V]
-  std::vector<char> is_rim_;                  ///< [V] 1: on the boundary
+  VertexFaces around_;
+  std::vector<char> is_rim_;   ///< [V] 1: on the boundary
   std::vector<char> is_near_;  ///< [V] 1: merged, or beside one that is, so its faces are others
 };
 

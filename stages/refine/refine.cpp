@@ -108,8 +108,7 @@ class Refinement {
       const auto& [a, b, c] = mesh_.faces[e.input_face];
       const ClosestPoint at = closest_point_on_triangle(e.place, mesh_.positions[a],
                                                         mesh_.positions[b], mesh_.positions[c]);
-      quads_.provenance.face[v] = e.input_face;
-      quads_.provenance.barycentric[v] = at.barycentric;
+      set_foot(quads_.provenance, v, {e.input_face, at.barycentric});
       quads_.mesh.positions[v] = e.place + mesh_.origin;
       moved[v] = 1;
     }
@@ -157,15 +156,13 @@ class Refinement {
 
  private:
   [[nodiscard]] SurfacePoint foot_of(Index v) const {
-    return {quads_.provenance.face[v], quads_.provenance.barycentric[v]};
+    return strake::foot_of(quads_.provenance, v);
   }
 
   Index add(const SurfacePoint& point) {
     positions_.push_back(place_of(mesh_, point));
     normals_.push_back(Vec3::Zero());
-    quads_.provenance.face.push_back(point.face);
-    quads_.provenance.barycentric.push_back(point.barycentric);
-    quads_.provenance.lines.push_back({kNone, kNone});
+    add_foot(quads_.provenance, point);
     return static_cast<Index>(positions_.size()) - 1;
   }
 

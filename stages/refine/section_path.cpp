@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/geometry/surface_distance/surface_distance.h"
+#include "common/geometry/topology/vertex_ring.h"
 #include "stages/refine/way_split.h"
 
 namespace strake {
@@ -74,22 +75,16 @@ SurfacePoint split_of(const TriMesh& mesh, const Way& way) {
 }  // namespace
 
 std::vector<Index> faces_around(const TriMesh& mesh, const SurfacePoint& point) {
-  for (int i = 0; i < 3; ++i) {
-    if (point.barycentric[i] < 1 - kOnEdge) continue;
-    std::vector<Index> faces;
-    const Index first = mesh.vertex_out[mesh.faces[point.face][i]];
-    for (Index h = first; h != kNone;) {
-      faces.push_back(TriMesh::face_of(h));
-      h = mesh.rotate_ccw(h);
-      if (h == first) break;
-    }
+  std::vector<Index> faces;
+  const Index corner = corner_at(point);
+  if (corner != kNone) {
+    for_each_outgoing(mesh, mesh.from(corner),
+                      [&](Index h) { faces.push_back(TriMesh::face_of(h)); });
     return faces;
   }
-  std::vector<Index> faces = {point.face};
-  for (int i = 0; i < 3; ++i) {
-    const Index other = mesh.twin[3 * point.face + (i + 1) % 3];
-    if (point.barycentric[i] < kOnEdge && other != kNone) faces.push_back(TriMesh::face_of(other));
-  }
+  faces.push_back(point.face);
+  const Index inner = edge_at(point, [&](Index h) { return !mesh.is_boundary(h); });
+  if (inner != kNone) faces.push_back(TriMesh::face_of(mesh.twin[inner]));
   return faces;
 }
 

@@ -17,19 +17,10 @@ namespace {
 
 /// A way joins two points where it is at most this many times their distance.
 constexpr double kLongestWay = 4;
-/// Likewise along a feature or boundary line.
-constexpr double kLongestLine = 2;
 
 /// A jagged boundary turns by at least this much, radians, to both sides. Where it turns by less,
 /// dividing an edge in the middle leaves better cells, and nothing that lies across what follows.
-constexpr double kSharpTurn = std::numbers::pi / 3;
-
-SurfacePoint point_at(const SurfaceLines::Place& place) {
-  SurfacePoint point{TriMesh::face_of(place.halfedge), {0, 0, 0}};
-  point.barycentric[place.halfedge % 3] = 1 - place.lambda;
-  point.barycentric[(place.halfedge + 1) % 3] = place.lambda;
-  return point;
-}
+constexpr double kJagTurn = std::numbers::pi / 3;
 
 }  // namespace
 
@@ -57,7 +48,8 @@ SurfacePoint SurfacePoints::nearest(const Vec3& p, const Vec3& normal, double re
 SurfacePoint SurfacePoints::between(const SurfacePoint& a, const SurfacePoint& b,
                                     const Vec3& middle, const Vec3& normal) const {
   const double distance = (place_of(mesh_, a) - place_of(mesh_, b)).norm();
-  const std::vector<SurfaceLines::Place> line = lines_.way_between(a, b, kLongestLine * distance);
+  const std::vector<SurfaceLines::Place> line =
+      lines_.way_between(a, b, SurfaceLines::kLongestLine * distance);
   if (!line.empty() && !mesh_.is_boundary(line.back().halfedge)) return split_of(line);
   const auto cut = split_of_section(mesh_, a, b, normal, kLongestWay * distance);
   if (cut) return *cut;
@@ -87,14 +79,14 @@ std::vector<SurfacePoint> SurfacePoints::jags_between(const SurfacePoint& from,
     const Vec3& p = places[corners[i]];
     const Vec3& before = i > 0 ? places[corners[i - 1]] : places.front();
     const Vec3& after = i + 1 < corners.size() ? places[corners[i + 1]] : places.back();
-    if (angle_between(p - before, after - p) < kSharpTurn) continue;
+    if (angle_between(p - before, after - p) < kJagTurn) continue;
     const bool is_left = (p - before).cross(after - p).dot(normal) > 0;
     turns_left = turns_left || is_left;
     turns_right = turns_right || !is_left;
   }
   std::vector<SurfacePoint> jags;
   if (!turns_left || !turns_right) return jags;
-  for (const std::size_t i : corners) jags.push_back(point_at(line[i]));
+  for (const std::size_t i : corners) jags.push_back(point_along(line[i].halfedge, line[i].lambda));
   return jags;
 }
 
@@ -107,7 +99,7 @@ SurfacePoint SurfacePoints::split_of(const std::vector<SurfaceLines::Place>& lin
   // Where the half-edge changes, the piece lies on the next one.
   const SurfaceLines::Place& end = line[piece + 1];
   const double start = line[piece].halfedge == end.halfedge ? line[piece].lambda : 0;
-  return point_at({end.halfedge, start + share * (end.lambda - start)});
+  return point_along(end.halfedge, start + share * (end.lambda - start));
 }
 
 std::vector<Vec3> SurfacePoints::positions(const std::vector<SurfaceLines::Place>& line) const {

@@ -19,8 +19,7 @@ bool is_turned_over(const SurfacePoints& points, const QuadMesh& quads, Index f)
   Vec3 normal = Vec3::Zero();
   double longest = 0;
   for (std::size_t i = 0; i < face.size(); ++i) {
-    normal +=
-        points.normal({quads.provenance.face[face[i]], quads.provenance.barycentric[face[i]]});
+    normal += points.normal(foot_of(quads.provenance, face[i]));
     const Vec3 side =
         quads.mesh.positions[face[(i + 1) % face.size()]] - quads.mesh.positions[face[i]];
     longest = std::max(longest, side.norm());
@@ -35,15 +34,12 @@ bool drop_some(const SurfacePoints& points, QuadMesh& quads) {
   const PolyEdges edges = collect_edges(mesh);
   std::vector<Index> inner_sides(static_cast<std::size_t>(mesh.face_count()), 0);
   std::vector<Index> beyond(inner_sides.size(), kNone);
-  for (Index e = 0; e < edges.edge_count(); ++e) {
-    const std::span<const Index> sides = edges.sides_of(e);
-    if (sides.size() != 2) continue;
-    const Index f = edges.corner_face[sides[0]];
-    const Index g = edges.corner_face[sides[1]];
+  const std::vector<Index> opposite = opposite_sides(edges);
+  for (std::size_t c = 0; c < opposite.size(); ++c) {
+    if (opposite[c] == kNone) continue;
+    const Index f = edges.corner_face[c];
     ++inner_sides[f];
-    ++inner_sides[g];
-    beyond[f] = g;
-    beyond[g] = f;
+    beyond[f] = edges.corner_face[opposite[c]];
   }
   PolyMesh kept;
   std::vector<char> stays(inner_sides.size(), 0);  // 1: beside one that goes

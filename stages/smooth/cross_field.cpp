@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <complex>
 
+#include "common/geometry/angles.h"
 #include "common/geometry/border_course.h"
 #include "common/geometry/frames.h"
 #include "common/geometry/mesh_measures.h"
@@ -18,7 +19,7 @@ using Complex = std::complex<double>;
 constexpr double kFeatureWeight = 100;  ///< against Dirichlet weights of order one
 constexpr double kGuideWeight = 100;    ///< likewise, on the faces that a guide passes
 constexpr double kBoundaryWeight = 5;  ///< scan boundaries are ragged: follow, but not at any price
-constexpr double kLossAngle = 10 * M_PI / 180;  ///< of the loss of Geman and McClure
+constexpr double kLossAngle = 10 * kDegree;  ///< of the loss of Geman and McClure
 constexpr int kReweightings = 6;
 /// Over this share of the diagonal crosses of length one spread at first, and over how much less in
 /// each round after it.

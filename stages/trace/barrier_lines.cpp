@@ -8,6 +8,7 @@
 
 #include "common/core/disjoint_sets.h"
 #include "common/geometry/mesh_measures.h"
+#include "common/geometry/topology/vertex_ring.h"
 
 namespace strake {
 namespace {
@@ -26,18 +27,15 @@ using Flags = std::vector<std::uint8_t>;
 Index next_along(const TriMesh& mesh, const Flags& is_corner, Index h, bool boundary) {
   const Index v = mesh.to(h);
   if (is_corner[v] != 0) return kNone;
-  Index found = kNone;
-  for (Index out = mesh.vertex_out[v];;) {
-    if (boundary) {
-      if (mesh.is_boundary(out)) return out;
-    } else if (mesh.is_feature[out] != 0 && out != mesh.twin[h]) {
-      if (found != kNone) return kNone;
-      found = out;
-    }
-    out = mesh.rotate_ccw(out);
-    if (out == kNone || out == mesh.vertex_out[v]) break;
-  }
-  return found;
+  if (boundary) return find_outgoing(mesh, v, [&](Index out) { return mesh.is_boundary(out); });
+  Index onward = kNone;
+  Index count = 0;
+  for_each_outgoing(mesh, v, [&](Index out) {
+    if (mesh.is_feature[out] == 0 || out == mesh.twin[h]) return;
+    onward = out;
+    ++count;
+  });
+  return count == 1 ? onward : kNone;
 }
 
 Vec3 edge_vector(const TriMesh& mesh, Index h) {
@@ -90,11 +88,7 @@ std::vector<BarrierLine> all_lines(const TriMesh& mesh, const Flags& is_corner) 
     const Index v = mesh.from(h);
     if (is_corner[v] != 0) return true;
     Index degree = 0;  // a vertex that is no corner has two barrier edges of one kind
-    for (Index out = mesh.vertex_out[v];;) {
-      degree += mesh.is_feature[out];
-      out = mesh.rotate_ccw(out);
-      if (out == kNone || out == mesh.vertex_out[v]) break;
-    }
+    for_each_outgoing(mesh, v, [&](Index out) { degree += mesh.is_feature[out]; });
     return !mesh.is_boundary(h) && degree != 2;
   };
   const auto collect = [&](Index start) {

@@ -3,16 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/geometry/angles.h"
 #include "common/geometry/frames.h"
 #include "common/geometry/line_chord.h"
 #include "common/geometry/mesh_measures.h"
+#include "common/geometry/topology/vertex_ring.h"
 
 namespace strake {
 namespace {
 
 /// Edges that one step may cross: around a needle it would go on for ever.
 constexpr int kMostCrossings = 4096;
-const double kFlattestCrossing = std::sin(20 * M_PI / 180);  ///< with a feature line
+const double kFlattestCrossing = std::sin(20 * kDegree);  ///< with a feature line
 
 }  // namespace
 
@@ -74,12 +76,8 @@ bool LineWalker::pass_vertex(LineHead& head, Index corner, const Vec2& direction
   const double angle =
       std::clamp(std::atan2(cross2(edge, back), edge.dot(back)), 0.0, corner_angle(mesh, corner));
   const Index v = mesh.from(corner);
-  bool barrier = false;
-  for (Index h = mesh.vertex_out[v];;) {
-    barrier = barrier || barriers_[h] != 0 || barriers_[TriMesh::prev(h)] != 0;
-    h = mesh.rotate_ccw(h);
-    if (h == kNone || h == mesh.vertex_out[v]) break;
-  }
+  const bool barrier = any_outgoing(
+      mesh, v, [&](Index h) { return barriers_[h] != 0 || barriers_[TriMesh::prev(h)] != 0; });
   const auto exit = barrier ? std::nullopt : cross_vertex(mesh, corner, angle);
   record(head,
          {{exit ? exit->corner : corner, 0},

@@ -1,14 +1,15 @@
 #pragma once
 
+#include "common/geometry/angles.h"
 #include "stages/trace/half_line.h"
 
 namespace strake {
 
 /// How directly a line must head for where it is to end, as a cosine: largest angle between its
 /// heading and the way to a corner, or to its start, and then also the direction it started in.
-const double kAheadCosine = std::cos(25 * M_PI / 180);
+const double kAheadCosine = std::cos(25 * kDegree);
 /// The same for its start where the line would end otherwise.
-const double kAheadCosineLast = std::cos(40 * M_PI / 180);
+const double kAheadCosineLast = std::cos(40 * kDegree);
 
 /// Whether the head has come so far that its start, when near, is one to come back to.
 bool can_close(const LineHead& head, const LocalSpacing& spacing);

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "common/core/error.h"
+#include "common/core/wanted_count.h"
 #include "strake/chain/result_faults.h"
 
 namespace strake {
@@ -24,16 +25,15 @@ constexpr double kMoreOdd = 0.05;
 constexpr double kFewerOdd = 0.03;
 /// Share of all faces that may be thin besides: between edges of facets there is little room.
 constexpr double kMoreThin = 0.03;
-/// Share of a count that may be missed.
-constexpr double kMissed = 0.05;
 
 bool is_poor(const ResultFaults& faults) {
   return faults.largest > kFar || faults.odd > kManyOdd || faults.crossing > 0 ||
-         faults.missing > kMissed;
+         faults.missing > kCountTolerance;
 }
 
 bool is_better(const ResultFaults& other, const ResultFaults& faults) {
-  if (other.crossing > faults.crossing || other.missing > std::max(faults.missing, kMissed) ||
+  if (other.crossing > faults.crossing ||
+      other.missing > std::max(faults.missing, kCountTolerance) ||
       other.thin > faults.thin + kMoreThin) {
     return false;
   }

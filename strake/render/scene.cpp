@@ -8,8 +8,10 @@
 #include <limits>
 
 #include "common/core/error.h"
+#include "common/geometry/angles.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_edges.h"
+#include "common/geometry/poly_topology/vertex_faces.h"
 
 namespace strake {
 namespace {
@@ -22,35 +24,10 @@ constexpr unsigned kLineMask = 2;
 constexpr double kSmoothCosine = 0.82;
 constexpr double kCreaseCosine = 0.5;
 
-/// The faces around each vertex, as corners: corner c belongs to face `corner_face[c]`.
-struct VertexCorners {
-  std::vector<Index> offsets;  // [V + 1]
-  std::vector<Index> corners;  // grouped by vertex
-  std::vector<Index> corner_face;
-
-  explicit VertexCorners(const PolyMesh& mesh)
-      : offsets(mesh.positions.size() + 1, 0),
-        corners(mesh.corners.size()),
-        corner_face(mesh.corners.size()) {
-    for (const Index v : mesh.corners) ++offsets[v + 1];
-    for (std::size_t v = 1; v < offsets.size(); ++v) offsets[v] += offsets[v - 1];
-    std::vector<Index> next(offsets.begin(), offsets.end() - 1);
-    for (Index f = 0; f < mesh.face_count(); ++f) {
-      for (Index c = mesh.offsets[f]; c < mesh.offsets[f + 1]; ++c) {
-        corner_face[c] = f;
-        corners[next[mesh.corners[c]]++] = c;
-      }
-    }
-  }
-};
-
 double corner_angle(const PolyMesh& mesh, Index face, Index corner) {
-  const Index first = mesh.offsets[face];
-  const Index n = mesh.offsets[face + 1] - first;
-  const Vec3& p = mesh.positions[mesh.corners[corner]];
-  const Vec3 a = mesh.positions[mesh.corners[first + (corner - first + 1) % n]] - p;
-  const Vec3 b = mesh.positions[mesh.corners[first + (corner - first + n - 1) % n]] - p;
-  return std::atan2(a.cross(b).norm(), a.dot(b));
+  const auto at = [&](Index c) -> const Vec3& { return mesh.positions[mesh.corners[c]]; };
+  return angle_between(at(mesh.next_corner(face, corner)) - at(corner),
+                       at(mesh.previous_corner(face, corner)) - at(corner));
 }
 
 /// One normal per corner: the mean over the faces around the vertex that bend little from its own.
@@ -63,7 +40,7 @@ std::vector<Eigen::Vector3f> smooth_normals(const PolyMesh& mesh, bool flat) {
       angle[c] = corner_angle(mesh, f, c);
     }
   });
-  const VertexCorners around(mesh);
+  const VertexFaces around(mesh);
   std::vector<Eigen::Vector3f> normals(mesh.corners.size());
   tbb::parallel_for(Index{0}, mesh.face_count(), [&](Index f) {
     for (Index c = mesh.offsets[f]; c < mesh.offsets[f + 1]; ++c) {
@@ -71,12 +48,11 @@ std::vector<Eigen::Vector3f> smooth_normals(const PolyMesh& mesh, bool flat) {
       if (!flat) {
         sum.setZero();
         const Index v = mesh.corners[c];
-        for (Index i = around.offsets[v]; i < around.offsets[v + 1]; ++i) {
-          const Index other = around.corners[i];
-          const Vec3& normal = face_normal[around.corner_face[other]];
+        for (std::size_t i = 0; i < around.faces(v).size(); ++i) {
+          const Vec3& normal = face_normal[around.faces(v)[i]];
           const double smooth =
               (normal.dot(face_normal[f]) - kCreaseCosine) / (kSmoothCosine - kCreaseCosine);
-          sum += std::clamp(smooth, 0.0, 1.0) * angle[other] * normal;
+          sum += std::clamp(smooth, 0.0, 1.0) * angle[around.corners(v)[i]] * normal;
         }
       }
       normals[c] = (sum.norm() > 0 ? sum.normalized() : face_normal[f]).cast<float>();

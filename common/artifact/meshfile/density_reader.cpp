@@ -51,16 +51,8 @@ std::vector<double> parse_density(std::string_view bytes) {
   if (!bytes.starts_with("ply")) throw InputError("is no PLY file, which alone can hold a density");
   ReadReport report;
   const PlyHeader header = read_ply_header(bytes, report);
-  const std::string_view data = bytes.substr(header.size);
-  switch (header.encoding) {
-    case PlyEncoding::ascii:
-      return read_vertices(AsciiValues(data), header);
-    case PlyEncoding::little_endian:
-      return read_vertices(BinaryValues<false>(data), header);
-    case PlyEncoding::big_endian:
-      break;
-  }
-  return read_vertices(BinaryValues<true>(data), header);
+  return with_values(bytes, header,
+                     [&](const auto& source) { return read_vertices(source, header); });
 }
 
 std::vector<double> read_density(const std::filesystem::path& path) {

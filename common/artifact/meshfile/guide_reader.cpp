@@ -133,16 +133,9 @@ GuideLines parse_guides(std::string_view bytes, const std::string& name) {
   } catch (const InputError& error) {
     builder.fail(error.what());
   }
-  const std::string_view data = bytes.substr(header.size);
-  switch (header.encoding) {
-    case PlyEncoding::ascii:
-      return parse_ply(AsciiValues(data), header, std::move(builder));
-    case PlyEncoding::little_endian:
-      return parse_ply(BinaryValues<false>(data), header, std::move(builder));
-    case PlyEncoding::big_endian:
-      break;
-  }
-  return parse_ply(BinaryValues<true>(data), header, std::move(builder));
+  return with_values(bytes, header, [&](const auto& source) {
+    return parse_ply(source, header, std::move(builder));
+  });
 }
 
 GuideLines read_guides(const std::filesystem::path& path) {

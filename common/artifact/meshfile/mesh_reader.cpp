@@ -10,6 +10,7 @@
 #include "common/artifact/meshfile/formats.h"
 #include "common/artifact/meshfile/mapped_file.h"
 #include "common/core/error.h"
+#include "common/core/text.h"
 
 namespace strake {
 namespace meshfile {
@@ -38,9 +39,7 @@ Format format_of_content(std::string_view bytes) {
 }
 
 Format format_of_extension(std::string_view extension) {
-  std::string lower(extension);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string lower = lower_case(extension);
   if (lower == ".obj") return Format::obj;
   if (lower == ".ply") return Format::ply;
   if (lower == ".off") return Format::off;

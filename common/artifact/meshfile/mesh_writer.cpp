@@ -19,6 +19,7 @@
 
 #include "common/artifact/atomic_file.h"
 #include "common/core/error.h"
+#include "common/core/text.h"
 
 namespace strake {
 namespace {
@@ -274,9 +275,7 @@ class PlyWriter {
 }  // namespace
 
 void write_mesh(const std::filesystem::path& path, const PolyMesh& mesh) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lower_case(path.extension().string());
   if (extension != ".obj" && extension != ".ply" && extension != ".off") {
     throw UsageError(
         fmt::format("cannot write '{}': the extension must be .obj, .ply or .off", path.string()));

@@ -136,4 +136,20 @@ class BinaryValues {
   const char* end_;
 };
 
+/// What use(source) gives for the source of the values of a file.
+/// \param bytes  the whole file, with its header
+template <class Use>
+auto with_values(std::string_view bytes, const PlyHeader& header, const Use& use) {
+  const std::string_view data = bytes.substr(header.size);
+  switch (header.encoding) {
+    case PlyEncoding::ascii:
+      return use(AsciiValues(data));
+    case PlyEncoding::little_endian:
+      return use(BinaryValues<false>(data));
+    case PlyEncoding::big_endian:
+      break;
+  }
+  return use(BinaryValues<true>(data));
+}
+
 }  // namespace strake::meshfile

@@ -285,19 +285,11 @@ bool is_label_name(std::string_view name) {
 PolyMesh read_ply(std::string_view bytes, ReadReport& report) {
   report.format = "PLY";
   const PlyHeader header = read_ply_header(bytes, report);
-  const std::string_view data = bytes.substr(header.size);
-  switch (header.encoding) {
-    case PlyEncoding::ascii:
-      report.format = "PLY, ascii";
-      return read_elements(AsciiValues(data), header, report);
-    case PlyEncoding::little_endian:
-      report.format = "PLY, binary little-endian";
-      return read_elements(BinaryValues<false>(data), header, report);
-    case PlyEncoding::big_endian:
-      break;
-  }
-  report.format = "PLY, binary big-endian";
-  return read_elements(BinaryValues<true>(data), header, report);
+  report.format = header.encoding == PlyEncoding::ascii           ? "PLY, ascii"
+                  : header.encoding == PlyEncoding::little_endian ? "PLY, binary little-endian"
+                                                                  : "PLY, binary big-endian";
+  return with_values(bytes, header,
+                     [&](const auto& source) { return read_elements(source, header, report); });
 }
 
 }  // namespace strake::meshfile

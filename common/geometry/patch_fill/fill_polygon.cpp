@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "common/geometry/angles.h"
@@ -11,7 +10,7 @@
 namespace strake {
 namespace {
 
-constexpr double kLeastAngle = 1 * std::numbers::pi / 180;
+constexpr double kLeastAngle = 1 * kDegree;
 constexpr double kSharpestTurn = 2;  ///< 1 - cosine
 
 /// What is least.

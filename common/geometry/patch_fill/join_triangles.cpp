@@ -15,7 +15,7 @@ namespace strake {
 namespace {
 
 /// Farthest that an angle of a quad may be from a right one.
-constexpr double kFromRightAngle = 70 * std::numbers::pi / 180;
+constexpr double kFromRightAngle = 70 * kDegree;
 /// Least cosine of the turn along its diagonal.
 constexpr double kLeastEvenness = 0.7;
 

@@ -19,7 +19,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMostBetween = 3;
 /// Farthest that an angle of a quad may be from a right one.
-constexpr double kMostFromRightAngle = 78 * std::numbers::pi / 180;
+constexpr double kMostFromRightAngle = 78 * kDegree;
 /// Least cosine of the turn along either diagonal of a quad.
 constexpr double kLeastOfBothEvenness = 0.5;
 /// Weight of the squared deviation of a number of edges from four, beside those of angles, rad^2.
@@ -42,18 +42,14 @@ class Search {
         may_remove_(may_remove),
         refused_(refused),
         edges_(collect_edges(mesh)),
-        across_(mesh.corners.size(), kNone),
+        opposite_(opposite_sides(edges_)),
         degree_(mesh.positions.size(), 0),
         is_border_(mesh.positions.size(), 0) {
     for (Index e = 0; e < edges_.edge_count(); ++e) {
-      const std::span<const Index> sides = edges_.sides_of(e);
       for (const Index v : edges_.vertices[e]) {
         ++degree_[v];
-        if (sides.size() != 2) is_border_[v] = 1;
+        if (edges_.sides_of(e).size() != 2) is_border_[v] = 1;
       }
-      if (sides.size() != 2) continue;
-      across_[sides[0]] = edges_.corner_face[sides[1]];
-      across_[sides[1]] = edges_.corner_face[sides[0]];
     }
   }
 
@@ -79,9 +75,10 @@ class Search {
   void go_on(const Patch& patch) {
     const Index last = patch.faces.back();
     for (Index c = mesh_.offsets[last]; c < mesh_.offsets[last + 1]; ++c) {
-      const Index next = across_[c];
+      if (opposite_[c] == kNone) continue;
+      const Index next = edges_.corner_face[opposite_[c]];
       // A way is found from both of its ends.
-      if (next == kNone || std::ranges::find(patch.faces, next) != patch.faces.end()) continue;
+      if (std::ranges::find(patch.faces, next) != patch.faces.end()) continue;
       const bool ends = is_odd(mesh_.face(next));
       if (ends ? next < patch.faces.front()
                : mesh_.face(next).size() != 4 || patch.faces.size() > kMostBetween) {
@@ -204,7 +201,7 @@ class Search {
   const std::function<bool(Index, Index)>& may_remove_;
   const std::set<std::vector<Index>>& refused_;
   PolyEdges edges_;
-  std::vector<Index> across_;    ///< [C] the face beyond the side; kNone at a border
+  std::vector<Index> opposite_;  ///< [C] of `edges_`
   std::vector<Index> degree_;    ///< [V] edges
   std::vector<char> is_border_;  ///< [V]
   std::vector<Redivision> found_;

@@ -8,7 +8,6 @@
 #include <optional>
 #include <set>
 #include <span>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -21,6 +20,7 @@
 #include "common/geometry/patch_fill/mendable_crossings.h"
 #include "common/geometry/patch_fill/patch_outline.h"
 #include "common/geometry/poly_topology/face_shape.h"
+#include "common/geometry/poly_topology/vertex_faces.h"
 #include "common/geometry/surface_lines.h"
 
 namespace strake {
@@ -36,11 +36,7 @@ constexpr int kSampleSteps = 4;
 
 using Polygon = std::vector<Index>;
 using Triangle = std::array<Index, 3>;
-
-std::uint64_t side_key(Index from, Index to) {
-  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(from)) << 32 |
-         static_cast<std::uint32_t>(to);
-}
+using Side = std::pair<Index, Index>;  ///< from one vertex to another
 
 /// What of the surface's feature and boundary lines may not be lost in a patch. The next is tried
 /// where faces still cross.
@@ -88,18 +84,11 @@ class Refilling {
   [[nodiscard]] std::span<const Index> face(Index f) const { return quads_.mesh.face(f); }
 
   void note_neighbours() {
-    faces_of_.resize(positions_.size());
+    around_.emplace(quads_.mesh);
     is_touched_.assign(positions_.size(), 0);
     is_removed_.assign(static_cast<std::size_t>(quads_.mesh.face_count()), 0);
     std::vector<BoxTree::Box> boxes;
-    for (Index f = 0; f < quads_.mesh.face_count(); ++f) {
-      const std::span<const Index> corners = face(f);
-      boxes.push_back(box_of(corners));
-      for (std::size_t i = 0; i < corners.size(); ++i) {
-        faces_of_[corners[i]].push_back(f);
-        face_of_side_[side_key(corners[i], corners[(i + 1) % corners.size()])] = f;
-      }
-    }
+    for (Index f = 0; f < quads_.mesh.face_count(); ++f) boxes.push_back(box_of(face(f)));
     tree_.emplace(std::move(boxes));
   }
 
@@ -151,7 +140,8 @@ class Refilling {
                                                 Kept kept) const {
     std::set<Index> patch(cluster.begin(), cluster.end());
     const auto add_around = [&](Index v) {
-      patch.insert(faces_of_[v].begin(), faces_of_[v].end());
+      const std::span<const Index> faces = around_->faces(v);
+      patch.insert(faces.begin(), faces.end());
     };
     for (int ring = 0; ring < rings; ++ring) {
       for (const Index f : std::vector<Index>(patch.begin(), patch.end())) {
@@ -201,14 +191,8 @@ class Refilling {
     }
   }
   /// The face beyond the side from a to b; kNone at a boundary.
-  [[nodiscard]] Index neighbour(Index a, Index b) const { return face_with_side(b, a); }
-  [[nodiscard]] Index face_with_side(Index a, Index b) const {
-    const auto found = face_of_side_.find(side_key(a, b));
-    return found == face_of_side_.end() ? kNone : found->second;
-  }
-  [[nodiscard]] SurfacePoint foot(Index v) const {
-    return {quads_.provenance.face[v], quads_.provenance.barycentric[v]};
-  }
+  [[nodiscard]] Index neighbour(Index a, Index b) const { return around_->face_with_side(b, a); }
+  [[nodiscard]] SurfacePoint foot(Index v) const { return foot_of(quads_.provenance, v); }
   /// Whether an edge runs along a feature or boundary line.
   [[nodiscard]] bool is_on_line(Index a, Index b) const {
     return lines_.has_along(foot(a), foot(b));
@@ -236,7 +220,7 @@ class Refilling {
     }
     if (!pinched.empty()) return false;
     std::ranges::sort(filling.removed);
-    std::set<std::uint64_t> edges;  // that were added
+    std::set<Side> edges;  // that were added
     return std::ranges::all_of(outlines, [&](const auto& outline) {
       return fill_outline(outline.first, outline.second, kept, edges, filling);
     });
@@ -271,7 +255,7 @@ class Refilling {
   }
 
   bool fill_outline(const std::vector<Index>& part, const Polygon& outline, Kept kept,
-                    std::set<std::uint64_t>& edges, Filling& filling) const {
+                    std::set<Side>& edges, Filling& filling) const {
     const std::size_t n = outline.size();
     std::vector<Vec3> corners;
     std::vector<Vec3> beyond(n, Vec3::Zero());
@@ -284,9 +268,8 @@ class Refilling {
     }
     const auto may_join = [&](std::size_t i, std::size_t j) {
       const auto is_taken = [&](Index a, Index b) {
-        const Index f = face_with_side(a, b);
-        return (f != kNone && !std::ranges::binary_search(part, f)) ||
-               edges.contains(side_key(a, b));
+        const Index f = around_->face_with_side(a, b);
+        return (f != kNone && !std::ranges::binary_search(part, f)) || edges.contains({a, b});
       };
       return !is_taken(outline[i], outline[j]) && !is_taken(outline[j], outline[i]);
     };
@@ -295,7 +278,7 @@ class Refilling {
     for (const auto& [a, b, c] : triangles) {
       const Polygon& added =
           filling.added.emplace_back(Polygon{outline[a], outline[b], outline[c]});
-      for (std::size_t i = 0; i < 3; ++i) edges.insert(side_key(added[i], added[(i + 1) % 3]));
+      for (std::size_t i = 0; i < 3; ++i) edges.emplace(added[i], added[(i + 1) % 3]);
     }
     return true;
   }
@@ -428,11 +411,10 @@ class Refilling {
   FaceNormals face_normals_;
   std::vector<Vec3> positions_;  ///< relative to the mesh's origin
   std::vector<std::array<Index, 2>> pairs_;
-  std::vector<std::vector<Index>> faces_of_;               ///< [V]
-  std::unordered_map<std::uint64_t, Index> face_of_side_;  ///< by its two vertices
-  std::optional<BoxTree> tree_;                            ///< of the faces at the start
-  std::vector<std::uint8_t> is_touched_;                   ///< [V] 1: of a face taken out
-  std::vector<std::uint8_t> is_removed_;                   ///< [F]
+  std::optional<VertexFaces> around_;     ///< of the faces at the start
+  std::optional<BoxTree> tree_;           ///< of the faces at the start
+  std::vector<std::uint8_t> is_touched_;  ///< [V] 1: of a face taken out
+  std::vector<std::uint8_t> is_removed_;  ///< [F]
   std::vector<Polygon> added_;
 };
 

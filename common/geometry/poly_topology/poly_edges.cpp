@@ -1,6 +1,7 @@
 #include "common/geometry/poly_topology/poly_edges.h"
 
 #include <algorithm>
+#include <span>
 #include <string>
 
 #include "common/core/error.h"
@@ -72,6 +73,17 @@ PolyEdges collect_edges(const PolyMesh& mesh) {
     }
   }
   return edges;
+}
+
+std::vector<Index> opposite_sides(const PolyEdges& edges) {
+  std::vector<Index> opposite(edges.corner_face.size(), kNone);
+  for (Index e = 0; e < edges.edge_count(); ++e) {
+    const std::span<const Index> sides = edges.sides_of(e);
+    if (sides.size() != 2) continue;
+    opposite[sides[0]] = sides[1];
+    opposite[sides[1]] = sides[0];
+  }
+  return opposite;
 }
 
 }  // namespace strake

@@ -28,13 +28,15 @@ struct PolyEdges {
 
 /// The corner after `corner` in its face.
 inline Index next_corner(const PolyMesh& mesh, const PolyEdges& edges, Index corner) {
-  const Index face = edges.corner_face[corner];
-  return corner + 1 == mesh.offsets[face + 1] ? mesh.offsets[face] : corner + 1;
+  return mesh.next_corner(edges.corner_face[corner], corner);
 }
 
 /// Collects the edges of a mesh.
 /// \throw PreconditionError naming the face where a corner is no vertex of the mesh
 /// Cost O(C) for bounded valence.
 PolyEdges collect_edges(const PolyMesh& mesh);
+
+/// [C] The other side of each side's edge; kNone where the edge has not just two sides.
+std::vector<Index> opposite_sides(const PolyEdges& edges);
 
 }  // namespace strake

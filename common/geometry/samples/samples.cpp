@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/core/error.h"
+#include "common/core/text.h"
 #include "common/geometry/samples/relax.h"
 #include "common/geometry/samples/sample_designs.h"
 
@@ -99,9 +100,8 @@ SampleKind sample_kind(std::string_view name) {
   const auto& names = sample_names();
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) {
-    std::string known;
-    for (const auto& n : names) known += (known.empty() ? "" : ", ") + n;
-    throw UsageError("no sample is called '" + std::string(name) + "'; there are " + known);
+    throw UsageError("no sample is called '" + std::string(name) + "'; there are " +
+                     join_words(names));
   }
   return static_cast<SampleKind>(found - names.begin());
 }

@@ -8,6 +8,10 @@
 
 namespace strake {
 
+/// Least cosine between the normals of two faces that are the same place of a surface, not on two
+/// sheets of it near each other.
+inline constexpr double kSameSheet = 0.5;
+
 /// Tells whether faces are of one component: what is sought near a place of a part is not on
 /// another part that lies in it or beside it.
 class OwnComponent {

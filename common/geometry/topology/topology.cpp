@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/core/error.h"
+#include "common/geometry/topology/vertex_ring.h"
 
 namespace strake {
 namespace {
@@ -74,13 +75,8 @@ void pair_twins(TriMesh& mesh) {
 
 /// The outgoing half-edge at which the numbering of the wedges of a vertex starts.
 Index first_wedge_start(const TriMesh& mesh, Index vertex) {
-  const Index start = mesh.vertex_out[vertex];
-  Index h = start;
-  do {
-    if (mesh.is_barrier(h)) return h;
-    h = mesh.rotate_ccw(h);
-  } while (h != kNone && h != start);
-  return start;
+  const Index barrier = find_outgoing(mesh, vertex, [&](Index h) { return mesh.is_barrier(h); });
+  return barrier != kNone ? barrier : mesh.vertex_out[vertex];
 }
 
 Index count_boundary_loops(const TriMesh& mesh) {

@@ -15,6 +15,24 @@ void for_each_outgoing(const TriMesh& mesh, Index vertex, const Visit& visit) {
   } while (h != kNone && h != start);
 }
 
+/// The first of these half-edges that is wanted; kNone where none is.
+template <typename IsWanted>
+Index find_outgoing(const TriMesh& mesh, Index vertex, const IsWanted& is_wanted) {
+  const Index start = mesh.vertex_out[vertex];
+  Index h = start;
+  do {
+    if (is_wanted(h)) return h;
+    h = mesh.rotate_ccw(h);
+  } while (h != kNone && h != start);
+  return kNone;
+}
+
+/// Whether any of these half-edges is wanted.
+template <typename IsWanted>
+bool any_outgoing(const TriMesh& mesh, Index vertex, const IsWanted& is_wanted) {
+  return find_outgoing(mesh, vertex, is_wanted) != kNone;
+}
+
 /// Calls `visit` with every vertex that an edge joins to this one, once.
 template <typename Visit>
 void for_each_neighbour(const TriMesh& mesh, Index vertex, const Visit& visit) {

@@ -47,10 +47,6 @@ PolyMesh sample_soup(SampleKind kind, std::int64_t faces) {
   return make_sample(kind, options);
 }
 
-SurfacePoint foot_of(const QuadMesh& quads, Index v) {
-  return {quads.provenance.face[v], quads.provenance.barycentric[v]};
-}
-
 /// A vertex that lies nearer to another part has its foot on its own one.
 TEST(LiftQuads, FeetStayOnTheirComponent) {
   constexpr Index kAcross = 12;
@@ -84,7 +80,7 @@ TEST(LiftQuads, FeetStayOnTheirComponent) {
   quads.mesh.add_face(std::array<Index, 3>{0, 1, 2});
   const QuadMesh lifted = lift_quads(mesh, coarse, quads);
   for (Index v = 0; v < lifted.mesh.vertex_count(); ++v) {
-    EXPECT_NEAR(place_of(mesh, foot_of(lifted, v)).z(), lower, 1e-9);
+    EXPECT_NEAR(place_of(mesh, foot_of(lifted.provenance, v)).z(), lower, 1e-9);
   }
 }
 
@@ -96,9 +92,10 @@ TEST(LiftQuads, VerticesStayAndFeetAreNearThem) {
   EXPECT_EQ(lifted.mesh.corners, result.quads.mesh.corners);
   double farthest = 0;
   for (Index v = 0; v < lifted.mesh.vertex_count(); ++v) {
-    const Vec3 foot = result.mesh.origin + place_of(result.mesh, foot_of(lifted, v));
+    const Vec3 foot = result.mesh.origin + place_of(result.mesh, foot_of(lifted.provenance, v));
     // A T-joint may lie off the coarser mesh.
-    const Vec3 before = result.coarse.origin + place_of(result.coarse, foot_of(result.quads, v));
+    const Vec3 before =
+        result.coarse.origin + place_of(result.coarse, foot_of(result.quads.provenance, v));
     const Vec3& place = lifted.mesh.positions[v];
     farthest = std::max(farthest, (foot - place).norm() - (before - place).norm());
     EXPECT_NEAR(lifted.provenance.barycentric[v][0] + lifted.provenance.barycentric[v][1] +
@@ -116,8 +113,8 @@ TEST(LiftQuads, OnLinesFeetAreTheVerticesThemselves) {
   const QuadMesh lifted = lift_quads(result.mesh, result.coarse, result.quads);
   Index on_lines = 0;
   for (Index v = 0; v < lifted.mesh.vertex_count(); ++v) {
-    const SurfacePoint before = foot_of(result.quads, v);
-    const SurfacePoint after = foot_of(lifted, v);
+    const SurfacePoint before = foot_of(result.quads.provenance, v);
+    const SurfacePoint after = foot_of(lifted.provenance, v);
     const bool was_on_line = !SurfaceLines(result.coarse).places(before).empty();
     const bool is_on_line = !SurfaceLines(result.mesh).places(after).empty();
     if (was_on_line) {

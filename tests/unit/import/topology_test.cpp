@@ -6,6 +6,7 @@
 #include <set>
 
 #include "common/core/error.h"
+#include "common/geometry/topology/vertex_ring.h"
 #include "tests/support/mesh_support.h"
 #include "tests/unit/import/shapes.h"
 
@@ -43,6 +44,32 @@ TEST(Topology, RotationVisitsTheWholeFanOfEveryVertex) {
       h = mesh.rotate_ccw(h);
     } while (h != kNone && h != mesh.vertex_out[v]);
     EXPECT_EQ(visited, corners[v]);
+  }
+}
+
+TEST(Topology, TheFirstWantedHalfedgeAroundAVertexIsFound) {
+  const TriMesh mesh = creased_grid();
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    std::vector<Index> ring;
+    for_each_outgoing(mesh, v, [&](Index h) { ring.push_back(h); });
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      std::size_t looked_at = 0;
+      const auto is_it = [&](Index h) {
+        ++looked_at;
+        return h == ring[i];
+      };
+      EXPECT_EQ(find_outgoing(mesh, v, is_it), ring[i]);
+      EXPECT_EQ(looked_at, i + 1);  // none beyond it
+      EXPECT_TRUE(any_outgoing(mesh, v, is_it));
+    }
+    std::size_t looked_at = 0;
+    const auto none = [&](Index) {
+      ++looked_at;
+      return false;
+    };
+    EXPECT_EQ(find_outgoing(mesh, v, none), kNone);
+    EXPECT_EQ(looked_at, ring.size());
+    EXPECT_FALSE(any_outgoing(mesh, v, none));
   }
 }
 

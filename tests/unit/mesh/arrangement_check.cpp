@@ -93,7 +93,8 @@ std::string arrangement_fault(const TriMesh& mesh, const LineSet& lines, const O
     if (line(0) != line(2) || line(1) != line(3) || line(0) == line(1)) {
       return "chords do not go straight through their crossing";
     }
-    found.emplace(overlay.nodes[node].face, std::min(line(0), line(1)), std::max(line(0), line(1)));
+    found.emplace(overlay.nodes[node].at.face, std::min(line(0), line(1)),
+                  std::max(line(0), line(1)));
   }
   return found == expected ? "" : "other chords cross than should";
 }

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace strake {
+
+/// Words one after the other, with something between them: "one, two, three".
+std::string join_words(const std::vector<std::string>& words, std::string_view between = ", ");
+
+/// A text with small letters for its capital ones, of ASCII only.
+std::string lower_case(std::string_view text);
+
+}  // namespace strake
