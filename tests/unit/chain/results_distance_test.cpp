@@ -274,5 +274,26 @@ TEST(Remesh, SaysForWhichMeshAToleranceIsProven) {
   EXPECT_NE(text.find("moved vertices by up to"), std::string::npos);
 }
 
+// Doubles that are multiplied by a power of two keep their digits.
+TEST(Remesh, IsTheSameInUnitsThatArePowersOfTwo) {
+  SampleOptions sample;
+  sample.faces = 4000;
+  const PolyMesh mesh = make_sample(SampleKind::ellipsoid, sample);
+  RemeshOptions options;
+  options.trace.vertices = 150;
+  options.measure = false;
+  const QuadMesh result = remesh({mesh, {}, {}, {}}, options).quads;
+  for (const double unit : {1024.0, 0.25}) {
+    PolyMesh other = mesh;
+    for (Vec3& p : other.positions) p *= unit;
+    const QuadMesh scaled = remesh({other, {}, {}, {}}, options).quads;
+    EXPECT_EQ(scaled.mesh.corners, result.mesh.corners) << unit;
+    ASSERT_EQ(scaled.mesh.vertex_count(), result.mesh.vertex_count()) << unit;
+    for (Index v = 0; v < result.mesh.vertex_count(); ++v) {
+      EXPECT_EQ(scaled.mesh.positions[v], unit * result.mesh.positions[v]) << unit;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace strake
