@@ -135,9 +135,14 @@ class LineQuadrics : public OpenMesh::Decimater::ModBaseT<MeshT> {
 
 using SourceVertex = OpenMesh::VPropHandleT<Index>;
 
+/// A factor that makes the diagonal one to two long: costs, which OpenMesh keeps in floats, go by
+/// the fourth power of it. Powers of two round nothing.
+double unit_of(const TriMesh& mesh) { return std::exp2(-std::floor(std::log2(mesh.diagonal))); }
+
 Surface to_openmesh(const TriMesh& mesh, const SourceVertex& source_of, Surface surface) {
+  const double unit = unit_of(mesh);
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    const auto vertex = surface.add_vertex(to_openmesh(mesh.positions[v]));
+    const auto vertex = surface.add_vertex(to_openmesh(unit * mesh.positions[v]));
     surface.property(source_of, vertex) = v;
     surface.status(vertex).set_feature(mesh.is_corner[v] != 0);
   }
@@ -252,7 +257,7 @@ CoarseSurface collapse_to(const TriMesh& mesh, Index count, Observer& observer) 
 
   CoarseSurface result;
   for (const auto vertex : surface.vertices()) {
-    result.positions.push_back(from_openmesh(surface.point(vertex)));
+    result.positions.emplace_back(from_openmesh(surface.point(vertex)) / unit_of(mesh));
     result.vertex.push_back(surface.property(source_of, vertex));
   }
   for (const auto face : surface.faces()) {
