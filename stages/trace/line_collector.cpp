@@ -95,9 +95,8 @@ double LineCollector::largest_gap() {
   for (Index f = 0; f < domain_.mesh.face_count(); ++f) {
     if (is_of_speck_[f] != 0) continue;
     finished_.coverage().for_gaps(f, [&](const Coverage::Gap& gap) {
-      const LineGap beside =
-          gap_beside(domain_, start_head(domain_, seed_of(gap), true), proximity);
-      largest = std::max(largest, std::min(beside.to_left, beside.to_right) / beside.wanted);
+      const LineHead head = start_head(domain_, seed_of(gap), true);
+      largest = std::max(largest, share_to_nearest(domain_, head, proximity));
     });
   }
   return largest;

@@ -18,6 +18,16 @@ void place(const FieldContext& context, const Vec2& point, double inside, Seed& 
   seed.barycentric /= seed.barycentric.sum();
 }
 
+/// For lines of a head's direction near to it.
+ProximityQuery look_around(const TraceDomain& domain, const LineHead& head, double reach) {
+  ProximityQuery query;
+  query.face = head.context.chart.face;
+  query.point = world_point(domain, head.context, head.point);
+  query.direction = world_direction(domain, head.context, head.heading);
+  query.distance = reach;
+  return query;
+}
+
 }  // namespace
 
 void CrossingSeeds::note(const TraceDomain& domain, const LineHead& head, double distance,
@@ -54,14 +64,16 @@ LineGap gap_beside(const TraceDomain& domain, const LineHead& head, ProximityPro
   LineGap gap;
   gap.wanted = spacing_at(domain, head).to_neighbours;
   gap.reach = kGapRange * gap.wanted;
-  ProximityQuery query;
-  query.face = head.context.chart.face;
-  query.point = world_point(domain, head.context, head.point);
-  query.direction = world_direction(domain, head.context, head.heading);
-  query.distance = gap.reach;
-  std::tie(gap.to_left, gap.to_right) = proximity.distances_beside(
-      query, world_direction(domain, head.context, left_of(head.heading)));
+  std::tie(gap.to_left, gap.to_right) =
+      proximity.distances_beside(look_around(domain, head, gap.reach),
+                                 world_direction(domain, head.context, left_of(head.heading)));
   return gap;
+}
+
+double share_to_nearest(const TraceDomain& domain, const LineHead& head,
+                        ProximityProbe& proximity) {
+  const double wanted = spacing_at(domain, head).to_neighbours;
+  return proximity.query(look_around(domain, head, kGapRange * wanted)).distance / wanted;
 }
 
 Seed centred(const TraceDomain& domain, const Seed& seed, ProximityProbe& proximity) {

@@ -39,6 +39,10 @@ struct LineGap {
 };
 LineGap gap_beside(const TraceDomain& domain, const LineHead& head, ProximityProbe& proximity);
 
+/// How far it is to the nearest of them, as a share of the wanted distance: at most 2, which is how
+/// far is looked. Much cheaper where it is near.
+double share_to_nearest(const TraceDomain& domain, const LineHead& head, ProximityProbe& proximity);
+
 /// The seed moved sideways into the middle between the lines of its direction beside it, or to
 /// the wanted distance from the only one: lines that fill gaps are then as even as possible.
 Seed centred(const TraceDomain& domain, const Seed& seed, ProximityProbe& proximity);
