@@ -71,6 +71,9 @@ constexpr double kCloserAtDetails = 0.5;
 /// Corners of features for each vertex or face wanted, from which on they may be too many, and how
 /// far they may come to lie off features then.
 constexpr double kManyCorners = 0.25;
+/// Share of a wanted count by which lines miss it, from which on decimation to theirs is tried,
+/// too.
+constexpr double kFarFromCount = 0.25;
 constexpr const char* kAnyDistance = "1";
 
 /// Divides cells and fits vertices in turn, and divides once more.
@@ -410,8 +413,15 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
   }
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
   if (coarser) replace_crossing(session, stages, aim, crossing);
+  const std::int64_t given = count_of(session, result_port(session), counted);
   if (rival && rival->replace_if_too_coarse(session, crossing)) {
     part_decimated(session, stages, aim, crossing);
+  } else if (rival && aim.miss(given) > kFarFromCount) {
+    // For so few the shape may not do at all, which it does for as many as lines take.
+    DecimatedRival other(stages, counted, given);
+    if (other.replace_if_too_coarse(session, crossing)) {
+      part_decimated(session, stages, {counted, given, given, 0}, crossing);
+    }
   }
   if (session.has("uncrossed")) session.keep(stages.uncross);
   warn_of_count(session, aim);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
@@ -78,6 +79,44 @@ TEST(TooCoarse, ACountIsMetThatLinesMiss) {
   options.lines_only = true;
   const Index lines = remesh({mesh, {}, {}, {}}, options).quads.mesh.vertex_count();
   EXPECT_GT(std::abs(lines - kFewVertices), kFewVertices / 4);
+}
+
+/// Fins on a plate: the outline of a comb, extruded.
+PolyMesh comb(int fins) {
+  PolyMesh mesh;
+  std::vector<Index> outline;
+  const auto add = [&](double x, double z) {
+    for (const double y : {0.0, 8.0}) mesh.positions.emplace_back(x, y, z);
+    outline.push_back(mesh.vertex_count() - 2);
+  };
+  add(0, 0);
+  add(2 * fins - 1, 0);
+  for (int i = fins - 1; i >= 0; --i) {
+    add(2 * i + 1, 20);
+    add(2 * i, 20);
+    if (i > 0) add(2 * i, 1);
+    if (i > 0) add(2 * i - 1, 1);
+  }
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Index a = outline[i];
+    const Index b = outline[(i + 1) % outline.size()];
+    mesh.add_face(std::array<Index, 4>{a, a + 1, b + 1, b});
+  }
+  std::vector<Index> back(outline.rbegin(), outline.rend());
+  for (Index& v : back) ++v;
+  mesh.add_face(outline);
+  mesh.add_face(back);
+  return mesh;
+}
+
+// For so few the fins cross each other, whatever is done; as many as lines take are enough.
+TEST(TooCoarse, DecimatesToWhatLinesTakeWhereFewerDoNotShowTheShape) {
+  RemeshOptions options;
+  options.trace.vertices = 40;
+  const RemeshResult result = remesh({comb(20), {}, {}, {}}, options);
+  EXPECT_GT(result.quads.mesh.vertex_count(), 50);
+  ASSERT_TRUE(is_decimated(result));
+  EXPECT_EQ(measure_of(result, "shape.self_intersecting_pairs"), 0);
 }
 
 TEST(TooCoarse, FacesAreCountedLikewise) {
