@@ -202,6 +202,7 @@ std::string Chain::run(Session& session) const {
   const Option& sides = refine.option("refine-sides");
   if (sides.value().empty()) sides.parse_into(mesh.option("max-sides").value());
   session.hold_warnings_of(mesh);
+  session.hold_warnings_of(decimate);  // of counts, which are told of at the end
   std::string port;
   if (const std::optional<Length> facets = height_of_facets(session, diagonal)) {
     port = run_with_facets(session, *facets);

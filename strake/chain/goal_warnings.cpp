@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -28,17 +29,28 @@ double number_of(const Session& session, std::string_view stage, std::string_vie
   return found;
 }
 
+bool has_warned(const Session& session, std::string_view stage) {
+  return std::ranges::any_of(session.records(), [&](const StageRecord& record) {
+    return record.provenance.stage == stage && !record.report.warnings().empty();
+  });
+}
+
 }  // namespace
 
 void warn_of_count(Session& session, const LineAim& aim) {
   const std::int64_t reached = count_of(session, result_port(session), aim.counted);
   std::string why = "the shape, --max-spacing or the mesh's own resolution do not allow it";
+  Index corners = corner_count(session);
+  if (session.has("decimated")) corners = 0;  // decimation gives them up
   if (reached < aim.wanted && is_input_spent(session)) {
     why = fmt::format("decimation gives no more vertices than the {} of the input",
                       session.get<TriMesh>("mesh").vertex_count());
+  } else if (reached > aim.wanted && session.has("decimated")) {
+    why = has_warned(session, "decimate") ? "fewer would change the topology of the surface"
+                                          : "faces of fewer cross, or miss the shape";
   }
-  const std::string missed = missed_count({aim.counted, aim.wanted, reached, corner_count(session)},
-                                          "the nearest result has", why);
+  const std::string missed =
+      missed_count({aim.counted, aim.wanted, reached, corners}, "the nearest result has", why);
   if (!missed.empty()) session.say("warning: " + missed);
 }
 

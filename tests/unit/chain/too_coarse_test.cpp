@@ -117,6 +117,10 @@ TEST(TooCoarse, DecimatesToWhatLinesTakeWhereFewerDoNotShowTheShape) {
   EXPECT_GT(result.quads.mesh.vertex_count(), 50);
   ASSERT_TRUE(is_decimated(result));
   EXPECT_EQ(measure_of(result, "shape.self_intersecting_pairs"), 0);
+  EXPECT_TRUE(std::ranges::any_of(result.messages, [](const std::string& message) {
+    return message.find("40 vertices were wanted") != std::string::npos &&
+           message.find("faces of fewer cross, or miss the shape") != std::string::npos;
+  }));
 }
 
 TEST(TooCoarse, FacesAreCountedLikewise) {
