@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <span>
 #include <vector>
@@ -71,6 +72,25 @@ std::int64_t count_touching(const std::vector<Vec3>& positions, const FaceTriang
   });
 }
 
+/// [components] 1: has a boundary. \param component  [F]
+std::vector<std::uint8_t> open_components(const TriMesh& mesh,
+                                          const std::vector<Index>& component) {
+  std::vector<std::uint8_t> is_open(*std::ranges::max_element(component) + 1, 0);
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    if (mesh.is_boundary(h)) is_open[component[TriMesh::face_of(h)]] = 1;
+  }
+  return is_open;
+}
+
+/// What to do about crossing parts.
+const char* remedy(const OwnCrossings& own) {
+  if (!own.between_parts) return "repair the model first";
+  return own.between_open_parts
+             ? "make one surface of the sheets first (of scans that overlap by a surface "
+               "reconstruction)"
+             : "unite the parts of the model first (a boolean union), or repair it";
+}
+
 }  // namespace
 
 OwnCrossings find_own_crossings(const TriMesh& mesh) {
@@ -82,6 +102,7 @@ OwnCrossings find_own_crossings(const TriMesh& mesh) {
   const auto pairs = find_crossing_faces(mesh.positions, triangles);
   if (pairs.empty()) return own;
   const std::vector<Index> component = face_components(mesh);
+  const std::vector<std::uint8_t> is_open = open_components(mesh, component);
   for (const auto& [f, g] : pairs) {
     const std::array<Vec3, 3> one = places_of(mesh.positions, mesh.faces[f]);
     const std::array<Vec3, 3> two = places_of(mesh.positions, mesh.faces[g]);
@@ -91,7 +112,10 @@ OwnCrossings find_own_crossings(const TriMesh& mesh) {
       continue;
     }
     ++own.pairs;
-    own.between_parts = own.between_parts || component[f] != component[g];
+    if (component[f] != component[g]) {
+      own.between_parts = true;
+      own.between_open_parts |= is_open[component[f]] != 0 && is_open[component[g]] != 0;
+    }
     if (depth <= deepest) continue;
     deepest = depth;
     own.place = box_of(one).intersection(box_of(two)).center();
@@ -122,9 +146,7 @@ void report_own_crossings(const TriMesh& reference, const std::vector<Vec3>& pos
       "{} pair{} of faces of the result cross{}, and the input itself has {} such pair{}, one near "
       "{}: there the result crosses itself, too; where it should not, {}",
       crossing, crossing == 1 ? "" : "s", crossing == 1 ? "es" : "", own.pairs,
-      own.pairs == 1 ? "" : "s", place_text(place, reference.diagonal),
-      own.between_parts ? "unite the parts of the model first (a boolean union), or repair it"
-                        : "repair the model first"));
+      own.pairs == 1 ? "" : "s", place_text(place, reference.diagonal), remedy(own)));
 }
 
 }  // namespace strake::evaluation

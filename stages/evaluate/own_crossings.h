@@ -13,9 +13,10 @@ namespace strake::evaluation {
 /// Faces of a mesh that pass through each other.
 struct OwnCrossings {
   std::int64_t pairs = 0;
-  std::int64_t touching = 0;   ///< pairs that meet and do not pass through each other
-  bool between_parts = false;  ///< whether any pair is of two components
-  Vec3 place = Vec3::Zero();   ///< where the deepest pair is, relative to the mesh's origin
+  std::int64_t touching = 0;        ///< pairs that meet and do not pass through each other
+  bool between_parts = false;       ///< whether any pair is of two components
+  bool between_open_parts = false;  ///< likewise, both with a boundary
+  Vec3 place = Vec3::Zero();        ///< where the deepest pair is, relative to the mesh's origin
 };
 
 /// Finds them. Faces that only touch, as sheets do along an edge that they had in common and

@@ -99,6 +99,17 @@ TEST(OwnCrossings, OfPartsThatTouchInTheInputAreExplained) {
   }));
 }
 
+/// Solids can be united; sheets, as scans of one thing from several sides are, have no inside.
+TEST(OwnCrossings, OfOpenSheetsAreNotToBeUnited) {
+  PolyMesh sheets;
+  sheets.positions = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1.5, 1, -1}, {1.2, 1.1, 1}};
+  sheets.add_face(std::array<Index, 3>{0, 1, 2});
+  sheets.add_face(std::array<Index, 3>{3, 4, 5});
+  const std::string warning = crossing_warning(evaluated(shapes::reference(sheets), sheets));
+  EXPECT_NE(warning.find("make one surface"), std::string::npos) << warning;
+  EXPECT_EQ(warning.find("unite"), std::string::npos) << warning;
+}
+
 /// Parts can be united, a part that crosses itself cannot.
 TEST(OwnCrossings, AreToldApartFromPartsInEachOther) {
   const PolyMesh parts = two_cubes(Vec3(0.3, 0.4, 0.6));
