@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "common/core/error.h"
+#include "common/core/mix_bits.h"
 #include "common/geometry/angles.h"
 #include "common/geometry/poly_topology/face_shape.h"
 
@@ -64,22 +65,18 @@ class TakenEdges {
     std::uint64_t owner = 0;
   };
 
-  static std::uint64_t mix(std::uint64_t value) {
-    value *= 0x9E3779B97F4A7C15U;
-    return value ^ (value >> 31);
-  }
   static std::uint64_t key(Index a, Index b) {
     const auto [low, high] = std::minmax({a, b});
     return (static_cast<std::uint64_t>(low + 1) << 32) | static_cast<std::uint32_t>(high);
   }
   static std::uint64_t key(std::span<const Index> face) {
     std::uint64_t sum = 0;
-    for (const Index v : face) sum += mix(static_cast<std::uint64_t>(v) + 1);
+    for (const Index v : face) sum += mix_bits(0, static_cast<std::uint64_t>(v) + 1);
     return sum;
   }
   [[nodiscard]] std::size_t find(std::uint64_t edge) const {
     const std::size_t mask = slots_.size() - 1;
-    std::size_t at = mix(edge) & mask;
+    std::size_t at = mix_bits(0, edge) & mask;
     while (slots_[at].edge != 0 && slots_[at].edge != edge) at = (at + 1) & mask;
     return at;
   }

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/core/mix_bits.h"
 #include "stages/import/gaps.h"
 
 namespace strake::import {
@@ -73,10 +74,7 @@ class PointClusters {
   }
   static std::uint64_t key_of(std::int64_t x, std::int64_t y, std::int64_t z) {
     std::uint64_t key = 0;
-    for (const std::int64_t c : {x, y, z}) {
-      key = (key ^ static_cast<std::uint64_t>(c)) * 0x9E3779B97F4A7C15U;
-      key ^= key >> 29;
-    }
+    for (const std::int64_t c : {x, y, z}) key = mix_bits(key, static_cast<std::uint64_t>(c));
     return key;
   }
 

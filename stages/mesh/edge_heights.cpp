@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "common/core/mix_bits.h"
+
 namespace strake {
 namespace {
 
@@ -12,13 +14,9 @@ namespace {
 constexpr unsigned kHashBits = 15;
 
 std::size_t hash_of(const Vec3& a, const Vec3& b) {
-  constexpr std::uint64_t kGoldenRatio = 0x9E3779B97F4A7C15U;  // Knuth, volume 3, section 6.4
   std::uint64_t hash = 0;
   for (const Vec3* end : {&a, &b}) {
-    for (const double x : *end) {
-      hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * kGoldenRatio;
-      hash ^= hash >> 32U;
-    }
+    for (const double x : *end) hash = mix_bits(hash, std::bit_cast<std::uint64_t>(x));
   }
   return hash >> (64 - kHashBits);
 }

@@ -10,6 +10,7 @@
 #include "common/artifact/meshfile/formats.h"
 #include "common/artifact/meshfile/text_scanner.h"
 #include "common/core/error.h"
+#include "common/core/mix_bits.h"
 
 namespace strake::meshfile {
 namespace {
@@ -51,8 +52,7 @@ class VertexWelder {
   static std::size_t hash(const Vec3& position) {
     std::uint64_t value = 0;
     for (int i = 0; i < 3; ++i) {
-      value = (value ^ std::bit_cast<std::uint64_t>(position[i])) * 0x9E3779B97F4A7C15U;
-      value ^= value >> 32;
+      value = mix_bits(value, std::bit_cast<std::uint64_t>(position[i]));
     }
     return value;
   }

@@ -10,6 +10,7 @@
 #include <limits>
 #include <utility>
 
+#include "common/core/mix_bits.h"
 #include "common/geometry/flat_triangle.h"
 
 namespace strake {
@@ -298,12 +299,8 @@ std::vector<Excess> check_tolerance(const ComparedSurfaces& surfaces, double tol
 }
 
 std::size_t ToleranceProof::Hash::operator()(const Triangle& triangle) const {
-  constexpr std::uint64_t kGoldenRatio = 0x9E3779B97F4A7C15U;  // Knuth, volume 3, section 6.4
   std::uint64_t hash = 0;
-  for (const std::uint64_t bits : triangle) {
-    hash = (hash ^ bits) * kGoldenRatio;
-    hash ^= hash >> 32U;
-  }
+  for (const std::uint64_t bits : triangle) hash = mix_bits(hash, bits);
   return hash;
 }
 
