@@ -53,10 +53,12 @@ class EarCutter {
   }
   [[nodiscard]] Index after(std::size_t i) const { return ring_[(i + 1) % ring_.size()]; }
 
+  /// A corner that is none of an ear when it is upright lies in the one across, and the other way
+  /// round: so ties end the other way here.
   [[nodiscard]] bool is_empty(Index a, Index b, Index c) const {
     return std::none_of(ring_.begin(), ring_.end(), [&](Index q) {
-      return q != a && q != b && q != c && area_along_normal(a, b, q) >= no_area_ &&
-             area_along_normal(b, c, q) >= no_area_ && area_along_normal(c, a, q) >= no_area_;
+      return q != a && q != b && q != c && area_along_normal(a, b, q) >= -no_area_ &&
+             area_along_normal(b, c, q) >= -no_area_ && area_along_normal(c, a, q) >= -no_area_;
     });
   }
 
@@ -68,7 +70,7 @@ class EarCutter {
       const Index a = before(i);
       const Index b = ring_[i];
       const Index c = after(i);
-      if (area_along_normal(a, b, c) <= 0) continue;
+      if (area_along_normal(a, b, c) <= no_area_) continue;
       const double shape = smallest_angle(positions_[a], positions_[b], positions_[c]);
       if (shape <= better_ * best || !is_empty(a, b, c)) continue;
       best = shape;

@@ -175,5 +175,51 @@ TEST(FaceShape, OnlyTiesAreCutOtherwise) {
   EXPECT_NE(sorted(others[0].corners), sorted(triangulate_faces(shapes::square(2, 0)).corners));
 }
 
+/// Twice the area of the ear at corner 1, as seen along the normal of the face.
+double ear_along_normal(const PolyMesh& mesh) {
+  const std::vector<Vec3>& p = mesh.positions;
+  return (p[1] - p[0]).cross(p[2] - p[0]).dot(newell_normal(p, mesh.face(0)).normalized());
+}
+
+// An ear that is upright to the face is one or none as rounding has it.
+TEST(FaceShape, UprightEarsAreCutEitherWay) {
+  std::mt19937 random(7);
+  int upright = 0;
+  int told_apart = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    PolyMesh mesh = rough_polygon(5, random);
+    // Behind the way from corner to corner, but as far up as it takes.
+    mesh.positions[1] = 0.45 * (mesh.positions[0] + mesh.positions[2]);
+    const auto with_height = [&](double height) {
+      PolyMesh other = mesh;
+      other.positions[1].z() += height;
+      return other;
+    };
+    double low = 0;
+    double high = trial % 2 == 0 ? 3 : -3;
+    if (!(ear_along_normal(mesh) * ear_along_normal(with_height(high)) < 0)) continue;
+    for (int i = 0; i < 60; ++i) {
+      const double middle = (low + high) / 2;
+      const bool is_beyond = ear_along_normal(mesh) * ear_along_normal(with_height(middle)) < 0;
+      (is_beyond ? high : low) = middle;
+    }
+    ++upright;
+    const PolyMesh tied = with_height(low);
+    std::vector<FaceTriangles> all = other_triangulations(tied);
+    all.push_back(triangulate_faces(tied));
+    const auto just_beside = [&](double side) {
+      return sorted(triangulate_faces(with_height(low + side)).corners);
+    };
+    told_apart += just_beside(-1e-11) != just_beside(1e-11) ? 1 : 0;
+    for (const double side : {-1e-11, 1e-11}) {
+      EXPECT_TRUE(std::ranges::any_of(all, [&](const FaceTriangles& t) {
+        return sorted(t.corners) == just_beside(side);
+      })) << trial;
+    }
+  }
+  EXPECT_GT(upright, 20);
+  EXPECT_GT(told_apart, 5);
+}
+
 }  // namespace
 }  // namespace strake
