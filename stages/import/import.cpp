@@ -34,6 +34,7 @@
 namespace strake {
 namespace {
 
+using import::FeatureCounts;
 using import::FeatureRules;
 using import::Repairs;
 using import::Soup;
@@ -202,7 +203,7 @@ void report_census(const TriMesh& mesh, const Census& counts, Report& report) {
   report.set("census.diagonal", mesh.diagonal);
 }
 
-void report_features(const import::FeatureCounts& counts, Report& report) {
+void report_features(const FeatureCounts& counts, Report& report) {
   report.set("features.strong_edges", counts.strong_edges);
   report.set("features.shallow_edges", counts.shallow_edges);
   report.set("features.bridging_edges", counts.bridging_edges);
@@ -230,7 +231,7 @@ void report_noise(const TriMesh& mesh, Report& report) {
                   noise.median_bend_deg));
 }
 
-void warn_of_steps(const TriMesh& mesh, const import::FeatureCounts& counts, Report& report) {
+void warn_of_steps(const TriMesh& mesh, const FeatureCounts& counts, Report& report) {
   constexpr double kFew = 0.01;  // share of the edges: not worth a look
   if (counts.strong_edges < kFew * 1.5 * mesh.face_count() || !import::has_voxel_steps(mesh)) {
     return;
@@ -299,7 +300,7 @@ FeatureRules feature_rules(const ImportOptions& options, double diagonal) {
 }
 
 /// Edges of walls that stand among measured points are as jagged as noise is.
-void warn_of_dropped_creases(double diagonal, const import::FeatureCounts& counts, Report& report) {
+void warn_of_dropped_creases(double diagonal, const FeatureCounts& counts, Report& report) {
   constexpr double kMostLength = 30;  ///< in diagonals; folds and tufts of a scan have less
   constexpr double kMost = 0.8;
   if (counts.dropped_share < kMost || counts.dropped_length < kMostLength * diagonal) return;
@@ -310,7 +311,7 @@ void warn_of_dropped_creases(double diagonal, const import::FeatureCounts& count
 }
 
 /// Seams of an atlas of many small charts would leave no room for anything but features.
-void warn_of_many_seams(const TriMesh& mesh, const import::FeatureCounts& counts, Report& report) {
+void warn_of_many_seams(const TriMesh& mesh, const FeatureCounts& counts, Report& report) {
   constexpr double kMany = 0.05;
   const double share = double(counts.seam_edges) / (1.5 * mesh.face_count());
   if (share <= kMany) return;
@@ -321,7 +322,7 @@ void warn_of_many_seams(const TriMesh& mesh, const import::FeatureCounts& counts
 }
 
 /// A border that no line follows comes out along the cells, as a staircase.
-void warn_of_open_labels(const import::FeatureCounts& counts, Report& report) {
+void warn_of_open_labels(const FeatureCounts& counts, Report& report) {
   if (counts.open_label_edges == 0) return;
   report.warn(
       fmt::format("{} edges between faces of different labels (groups, materials) are no features, "
@@ -389,27 +390,27 @@ Repaired repair(const PolyMesh& soup, const ImportOptions& options, Observer& ob
 
 /// Finds features by the options' rules, and those listed, by the parts that repairs divided their
 /// edges into.
-import::FeatureCounts mark_features(TriMesh& mesh, const ImportOptions& options,
-                                    const PolyMesh& soup,
-                                    const std::vector<std::vector<import::DividedEdge>>& divisions,
-                                    const EdgeList* listed, Report& report){EdgeList parts;
-for (const std::vector<import::DividedEdge>& divided : divisions) {
-  if (listed == nullptr) break;
-  parts = import::listed_parts(*listed, soup, divided);
-  listed = &parts;
+FeatureCounts mark_features(TriMesh& mesh, const ImportOptions& options, const PolyMesh& soup,
+                            const std::vector<std::vector<import::DividedEdge>>& divisions,
+                            const EdgeList* listed, Report& report) {
+  EdgeList parts;
+  for (const std::vector<import::DividedEdge>& divided : divisions) {
+    if (listed == nullptr) break;
+    parts = import::listed_parts(*listed, soup, divided);
+    listed = &parts;
+  }
+  const FeatureCounts features =
+      import::find_features(mesh, feature_rules(options, mesh.diagonal), soup, listed);
+  if (options.no_attributes) mesh.attributes = {};
+  warn_of_dropped_creases(mesh.diagonal, features, report);
+  warn_of_many_seams(mesh, features, report);
+  if (!options.no_attributes) warn_of_open_labels(features, report);
+  report_noise(mesh, report);
+  warn_of_steps(mesh, features, report);
+  return features;
 }
-const import::FeatureCounts features =
-    import::find_features(mesh, feature_rules(options, mesh.diagonal), soup, listed);
-if (options.no_attributes) mesh.attributes = {};
-warn_of_dropped_creases(mesh.diagonal, features, report);
-warn_of_many_seams(mesh, features, report);
-if (!options.no_attributes) warn_of_open_labels(features, report);
-report_noise(mesh, report);
-warn_of_steps(mesh, features, report);
-return features;
-}  // namespace
 
-}  // namespace strake
+}  // namespace
 
 ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Observer& observer,
                          const EdgeList* listed) {
@@ -428,7 +429,7 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
     take_noise_off(result.mesh, options, soup, result.report);
   }
   observer.report("finding features", 0.7);
-  const import::FeatureCounts features =
+  const FeatureCounts features =
       mark_features(result.mesh, options, soup, given.triangles.divided, listed, result.report);
   divide_long_edges(result.mesh, options, result.report);
   build_wedges(result.mesh);

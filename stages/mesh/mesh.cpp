@@ -233,7 +233,8 @@ PolygonGraph cut_out_cells(const TriMesh& mesh, const LineSet& lines,
 }
 
 /// The cells between the lines, simplified and divided to faces of few sides.
-/// \param heights  made where there are none yet: not before cells are formed, which takes most memory
+/// \param heights  made where there are none yet: not before cells are formed, which takes most
+///                 memory
 Cells divide_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions& options,
                    const std::vector<Index>& component, const std::vector<Triangles>& triangles,
                    const BorderCourse& borders, std::optional<EdgeHeights>& heights,

@@ -14,6 +14,7 @@
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/samples/samples.h"
 #include "strake/chain/remesh.h"
+#include "tests/support/mesh_support.h"
 #include "tests/unit/chain/results.h"
 
 namespace strake {
@@ -284,8 +285,7 @@ TEST(Remesh, IsTheSameInUnitsThatArePowersOfTwo) {
   options.measure = false;
   const QuadMesh result = remesh({mesh, {}, {}, {}}, options).quads;
   for (const double unit : {1024.0, 0.25}) {
-    PolyMesh other = mesh;
-    for (Vec3& p : other.positions) p *= unit;
+    const PolyMesh other = support::transformed(mesh, unit * Mat3::Identity());
     const QuadMesh scaled = remesh({other, {}, {}, {}}, options).quads;
     EXPECT_EQ(scaled.mesh.corners, result.mesh.corners) << unit;
     ASSERT_EQ(scaled.mesh.vertex_count(), result.mesh.vertex_count()) << unit;
