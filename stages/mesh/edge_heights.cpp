@@ -10,7 +10,7 @@
 namespace strake {
 namespace {
 
-/// Bits of the hash, so that each thread remembers that many edges to the power of two: 1.8 MB.
+/// Bits of a hash: each thread remembers two to the power of that many edges, 1.8 MB.
 constexpr unsigned kHashBits = 15;
 
 std::size_t hash_of(const Vec3& a, const Vec3& b) {
