@@ -8,7 +8,7 @@ set(STRAKE_EXPORTED
 foreach(stage import tensor smooth coarsen prolong trace mesh lift decimate fit size refine evaluate)
   list(APPEND STRAKE_EXPORTED ${stage} ${stage}_stage)
 endforeach()
-list(APPEND STRAKE_EXPORTED refine-uncross_stage)
+list(APPEND STRAKE_EXPORTED refine-uncross_stage refine-worst_stage)
 
 # strake::strake: all of it, behind the header strake/strake.h.
 add_library(strake_all INTERFACE)

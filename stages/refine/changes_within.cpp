@@ -8,12 +8,15 @@
 #include <utility>
 #include <vector>
 
+#include "common/geometry/carry_attributes.h"
 #include "common/geometry/cell_error/tolerance_check.h"
 #include "common/geometry/face_crossings/face_crossings.h"
 #include "common/geometry/patch_fill/redivide_faces.h"
 #include "common/geometry/patch_fill/refill_crossing.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_edges.h"
+#include "common/geometry/poly_topology/poly_topology.h"
+#include "common/geometry/poly_topology/same_topology.h"
 #include "stages/refine/double_edge.h"
 
 namespace strake {
@@ -126,6 +129,13 @@ void cut_cells_in_doubt(ToleranceProof& proof, QuadMesh& quads) {
   }
   quads.mesh.corners = std::move(cut.corners);
   quads.mesh.offsets = std::move(cut.offsets);
+}
+
+void end_changes(const TriMesh& mesh, const PolyMesh& before, const std::string& what,
+                 QuadMesh& quads) {
+  require_same_topology(before, analyse(quads.mesh), what);
+  begin_faces_at_fans(quads.mesh);
+  quads.mesh.attributes = carry_attributes(mesh, quads.mesh, quads.provenance);
 }
 
 }  // namespace strake

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "common/core/poly_mesh.h"
+#include "common/core/tri_mesh.h"
 #include "common/geometry/cell_error/tolerance_check.h"
 #include "stages/refine/surface_points.h"
 
@@ -24,5 +26,11 @@ void pair_odd_cells_within(ToleranceProof& proof, const SurfacePoints& points,
 /// Makes triangles of the cells that others could cut otherwise (ToleranceProof::cells_in_doubt):
 /// those by which it was proven. A cell stays where an edge of theirs would be double.
 void cut_cells_in_doubt(ToleranceProof& proof, QuadMesh& quads);
+
+/// Ends changes of a result: holds it to the topology that it had, lets faces begin at fans
+/// (face_shape.h), and carries attributes over.
+/// \param what  the result, in messages
+void end_changes(const TriMesh& mesh, const PolyMesh& before, const std::string& what,
+                 QuadMesh& quads);
 
 }  // namespace strake

@@ -23,12 +23,9 @@ namespace {
 
 /// What inlays grow for.
 struct Goal {
-  bool uncrosses;     ///< faces that cross, too; these may stay, so inlays that do not help may go
-  std::size_t cells;  ///< at most, in place of which an inlay may be
-  int rounds;         ///< times at most that inlays grow
+  bool uncrosses;  ///< faces that cross, too; these may stay, so inlays that do not help may go
+  InlayLimits limits;
 };
-constexpr Goal kWithin = {false, 4000, 16};
-constexpr Goal kUncrossed = {true, 1000, 16};
 /// Cells in place of which an inlay for faces that cross may be, for each of these, and for few.
 /// Along ragged boundaries it would grow as long as there is no other like its patch.
 constexpr std::size_t kMostCellsPerFault = 75;
@@ -80,7 +77,8 @@ class Inlays {
     std::size_t fewest = std::numeric_limits<std::size_t>::max();
     std::vector<Site> best;
     int in_vain = 0;
-    for (int round = 0; round < goal_.rounds && bad.any() && in_vain < kInlaysInVain; ++round) {
+    for (int round = 0; round < goal_.limits.rounds && bad.any() && in_vain < kInlaysInVain;
+         ++round) {
       if (!widen(now, bad.faces) || !cut() || sites_.empty()) break;
       now = inlaid();
       bad = faults(now);
@@ -199,7 +197,7 @@ class Inlays {
       before = site.cells.size();
       site.in_vain += before;
       widen(site);
-      if (is_out_of_proportion(site) || site.cells.size() > goal_.cells ||
+      if (is_out_of_proportion(site) || site.cells.size() > goal_.limits.cells ||
           cells_in_vain_ + site.in_vain > kMostInVain) {
         break;
       }
@@ -284,14 +282,14 @@ class Inlays {
 }  // namespace
 
 bool inlay_beyond(ToleranceProof& proof, const std::vector<Excess>& excess,
-                  CrossingPlaces& crossing, QuadMesh& quads) {
+                  CrossingPlaces& crossing, QuadMesh& quads, const InlayLimits& limits) {
   std::vector<Index> cells;
   for (const Target& target : cells_beyond(proof.input()->mesh, quads, excess, true)) {
     cells.push_back(target.face);
   }
   if (cells.size() > kMostBad) return false;
   const InlayHost host(proof, quads, crossing);
-  Inlays growing(host, kWithin);
+  Inlays growing(host, {false, limits});
   if (!growing.grow(cells)) return false;
   std::vector<Inlay> inlays = growing.inlays();
   thin(host, proof.tolerance(), inlays);
@@ -300,11 +298,11 @@ bool inlay_beyond(ToleranceProof& proof, const std::vector<Excess>& excess,
 }
 
 std::vector<char> inlay_crossing(ToleranceProof& proof, CrossingPlaces& crossing, double thinned_by,
-                                 QuadMesh& quads) {
+                                 QuadMesh& quads, const InlayLimits& limits) {
   const std::vector<Index> cells = crossing.faces_of(quads.mesh);
   if (cells.empty() || cells.size() > kMostBad) return {};
   const InlayHost host(proof, quads, crossing);
-  Inlays growing(host, kUncrossed);
+  Inlays growing(host, {true, limits});
   if (!growing.grow(cells)) growing.drop_bad_unless_fewer_cross(cells.size());
   std::vector<Inlay> inlays = growing.inlays();
   thin_from(host, thinned_by, inlays);

@@ -1,4 +1,5 @@
 #include "stages/refine/refine.h"
+#include "stages/refine/worst.h"
 
 namespace strake {
 
@@ -36,6 +37,16 @@ OptionList RefineOptions::declare() {
        .unit = "",
        .help = "Hand on the result also where it is not within the tolerance yet."},
   };
+}
+
+OptionList WorstOptions::declare() {
+  return {{.name = "worst-share",
+           .target = &share,
+           .unit = "",
+           .help = "Vertices that may be added where a result is farthest from the surface, as a "
+                   "share of those there are; 0: it stays as it is.",
+           .min = 0,
+           .max = 1}};
 }
 
 }  // namespace strake

@@ -6,13 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "common/geometry/carry_attributes.h"
 #include "common/geometry/cell_error/cell_error.h"
 #include "common/geometry/cell_error/tolerance_check.h"
 #include "common/geometry/face_crossings/crossing_places.h"
-#include "common/geometry/poly_topology/face_shape.h"
-#include "common/geometry/poly_topology/poly_topology.h"
-#include "common/geometry/poly_topology/same_topology.h"
 #include "stages/refine/changes_within.h"
 #include "stages/refine/inlays.h"
 #include "stages/refine/surface_points.h"
@@ -62,10 +58,7 @@ UncrossResult uncross_faces(const TriMesh& mesh, const QuadMesh& quads, Observer
     if (after < before) result.quads = std::move(inlaid);
   }
   if (after < before) {
-    PolyMesh& made = result.quads.mesh;
-    require_same_topology(quads.mesh, analyse(made), "the result with faces of the input");
-    begin_faces_at_fans(made);
-    made.attributes = carry_attributes(mesh, made, result.quads.provenance);
+    end_changes(mesh, quads.mesh, "the result with faces of the input", result.quads);
   }
   result.report.set("refine.uncrossed_faces",
                     static_cast<std::int64_t>(before - std::min(before, after)));

@@ -25,6 +25,7 @@
 #include "stages/prolong/stage.h"
 #include "stages/refine/stage.h"
 #include "stages/refine/uncross/stage.h"
+#include "stages/refine/worst/stage.h"
 #include "stages/size/stage.h"
 #include "stages/smooth/stage.h"
 #include "stages/tensor/stage.h"
@@ -80,6 +81,7 @@ Chain::Chain()
       size(size_stage()),
       refine(refine_stage()),
       uncross(refine_uncross_stage()),
+      worst(refine_worst_stage()),
       decimate(decimate_stage()),
       evaluate(evaluate_stage()) {}
 
@@ -109,8 +111,8 @@ OptionList Chain::declare(std::optional<std::int64_t>& rounds, bool& lines_only,
 }
 
 std::vector<const Stage*> Chain::stages() const {
-  return {&import,  &coarsen, &tensor, &smooth, &trace,   &mesh,     &lift,
-          &prolong, &fit,     &size,   &refine, &uncross, &decimate, &evaluate};
+  return {&import, &coarsen, &tensor, &smooth,  &trace, &mesh,     &lift,    &prolong,
+          &fit,    &size,    &refine, &uncross, &worst, &decimate, &evaluate};
 }
 
 void Chain::check_goals() const {
@@ -135,6 +137,7 @@ std::string Chain::reach_goal(Session& session) const {
                                .size = size,
                                .refine = refine,
                                .uncross = uncross,
+                               .worst = worst,
                                .decimate = decimate};
   // Counts are met by what faces are made of the lines, not by the lines themselves.
   const Option& scale = trace.option("spacing-scale");

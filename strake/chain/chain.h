@@ -28,6 +28,7 @@ struct Chain {
   Stage size;
   Stage refine;
   Stage uncross;
+  Stage worst;
   Stage decimate;
   Stage evaluate;
 

@@ -13,7 +13,10 @@ std::int64_t count_of(const Session& session, const char* port, Counted counted)
 }
 
 const char* result_port(const Session& session) {
-  return session.has("uncrossed") ? "uncrossed" : "fitted";
+  for (const char* port : {"improved", "uncrossed"}) {
+    if (session.has(port)) return port;
+  }
+  return "fitted";
 }
 
 std::int64_t given_vertex_count(const Session& session) {

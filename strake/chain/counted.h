@@ -7,7 +7,8 @@
 
 namespace strake {
 
-/// The port of a result for a count: of what was fitted, or of that without faces that crossed.
+/// The port of a result for a count: of what was fitted, of that without faces that crossed, or of
+/// what came of these where their worst places were brought nearer.
 const char* result_port(const Session& session);
 
 /// Vertices or faces of the quads at a port.

@@ -17,6 +17,7 @@ struct GoalStages {
   Stage size;
   Stage refine;
   Stage uncross;
+  Stage worst;
   Stage decimate;
 };
 

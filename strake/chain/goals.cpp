@@ -24,6 +24,7 @@
 #include "strake/chain/replace_crossing.h"
 #include "strake/chain/too_coarse.h"
 #include "strake/chain/working_mesh.h"
+#include "strake/chain/worst_places.h"
 
 namespace strake {
 namespace {
@@ -424,6 +425,7 @@ std::string meet_count(Session& session, const GoalStages& stages, Counted count
     }
   }
   if (session.has("uncrossed")) session.keep(stages.uncross);
+  improve_worst_places(session, stages, aim);
   warn_of_count(session, aim);
   return result_port(session);
 }
@@ -452,6 +454,7 @@ std::string follow_spacing(Session& session, const GoalStages& stages,
   }
   session = best.done;
   if (session.has("uncrossed")) session.keep(stages.uncross);
+  improve_worst_places(session, stages, std::nullopt);
   return result_port(session);
 }
 

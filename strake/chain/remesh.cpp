@@ -77,6 +77,7 @@ OptionList RemeshOptions::declare() {
   add(fit.declare());
   add(size.declare());
   add(refine.declare());
+  add(worst.declare());
   add(decimate.declare());
   add(evaluate.declare());
   add(Chain::declare(feedback_rounds, lines_only, working_ratio));

@@ -20,6 +20,7 @@
 #include "stages/import/import.h"
 #include "stages/mesh/mesh.h"
 #include "stages/refine/refine.h"
+#include "stages/refine/worst.h"
 #include "stages/size/size.h"
 #include "stages/smooth/smooth.h"
 #include "stages/tensor/tensor.h"
@@ -47,7 +48,8 @@ struct RemeshOptions {
   MeshOptions mesh;
   FitOptions fit;
   SizeOptions size;
-  RefineOptions refine;      ///< `tolerance` and `vertices` follow from the goal
+  RefineOptions refine;  ///< `tolerance` and `vertices` follow from the goal
+  WorstOptions worst;
   DecimateOptions decimate;  ///< likewise
   EvaluateOptions evaluate;  ///< `tolerance` follows from the goal where it is not given
   /// Times that lines are traced again by errors measured, where there is a goal; default: 1, with

@@ -23,8 +23,8 @@ struct Found {
 };
 
 const std::vector<std::string> kStageOrder = {
-    "import", "coarsen", "tensor",   "smooth", "size",   "trace",          "mesh",
-    "lift",   "prolong", "decimate", "fit",    "refine", "refine-uncross", "evaluate"};
+    "import",  "coarsen",  "tensor", "smooth", "size",           "trace",        "mesh",    "lift",
+    "prolong", "decimate", "fit",    "refine", "refine-uncross", "refine-worst", "evaluate"};
 
 std::ptrdiff_t stage_place(const std::string& stage) {
   return std::find(kStageOrder.begin(), kStageOrder.end(), stage) - kStageOrder.begin();

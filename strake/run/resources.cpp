@@ -71,7 +71,7 @@ Resources default_resources(std::string_view program) {
   if (program == "mesh") return needs({1500, 100}, {1000, 10});
   if (program == "fit") return needs({1200, 60}, {4000, 200});
   if (program == "size") return needs({600, 60}, {1000, 20});
-  if (program == "refine" || program == "refine-uncross") {
+  if (program == "refine" || program == "refine-uncross" || program == "refine-worst") {
     return needs({800, 400}, {1500, 200});
   }
   if (program == "decimate") return needs({900, 60}, {500, 10});

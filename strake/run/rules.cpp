@@ -215,8 +215,9 @@ std::vector<Rule> in_order(std::vector<Rule> rules) {
 std::vector<Rule> standard_rules(const Place& place) {
   std::vector<Rule> rules;
   // Without rounds of tracing, which a file must write out, and what needs a goal.
-  const std::set<std::string> others = {"sample", "export", "coarsen",        "prolong", "lift",
-                                        "size",   "refine", "refine-uncross", "decimate"};
+  const std::set<std::string> others = {"sample",       "export",  "coarsen", "prolong",
+                                        "lift",         "size",    "refine",  "refine-uncross",
+                                        "refine-worst", "decimate"};
   for (const std::string& name : stage_names()) {
     if (others.count(name) == 0) rules.push_back(usual_rule(name, name, place));
   }

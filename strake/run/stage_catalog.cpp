@@ -15,6 +15,7 @@
 #include "stages/prolong/stage.h"
 #include "stages/refine/stage.h"
 #include "stages/refine/uncross/stage.h"
+#include "stages/refine/worst/stage.h"
 #include "stages/sample/stage.h"
 #include "stages/size/stage.h"
 #include "stages/smooth/stage.h"
@@ -32,14 +33,23 @@ constexpr const char* kTensorPart = "tensor-part";
 
 const std::vector<std::pair<std::string, Maker>>& catalog() {
   static const std::vector<std::pair<std::string, Maker>> kCatalog = {
-      {"sample", sample_stage},     {"import", import_stage},
-      {"tensor", tensor_stage},     {"smooth", smooth_stage},
-      {"coarsen", coarsen_stage},   {"prolong", prolong_stage},
-      {"trace", trace_stage},       {"mesh", mesh_stage},
-      {"lift", lift_stage},         {"fit", fit_stage},
-      {"refine", refine_stage},     {"size", size_stage},
-      {"decimate", decimate_stage}, {"evaluate", evaluate_stage},
-      {"export", export_stage},     {"refine-uncross", refine_uncross_stage},
+      {"sample", sample_stage},
+      {"import", import_stage},
+      {"tensor", tensor_stage},
+      {"smooth", smooth_stage},
+      {"coarsen", coarsen_stage},
+      {"prolong", prolong_stage},
+      {"trace", trace_stage},
+      {"mesh", mesh_stage},
+      {"lift", lift_stage},
+      {"fit", fit_stage},
+      {"refine", refine_stage},
+      {"size", size_stage},
+      {"decimate", decimate_stage},
+      {"evaluate", evaluate_stage},
+      {"export", export_stage},
+      {"refine-uncross", refine_uncross_stage},
+      {"refine-worst", refine_worst_stage},
   };
   return kCatalog;
 }

@@ -278,6 +278,7 @@ def stage_commands(folder):
         "mesh import.hdf trace.hdf OUT.hdf", "fit import.hdf mesh.hdf OUT.hdf --field smooth.hdf",
         "size import.hdf smooth.hdf trace.hdf fit.hdf OUT.hdf",
         "refine import.hdf fit.hdf OUT.hdf --refine-tolerance 0.03%", "refine-uncross import.hdf fit.hdf OUT.hdf",
+        "refine-worst import.hdf fit.hdf OUT.hdf",
         "export fit.hdf OUT.obj",
         "evaluate import.hdf fit.hdf OUT.json --samples 1000000"]
     for command in commands:

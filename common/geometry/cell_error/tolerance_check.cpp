@@ -344,7 +344,7 @@ void ToleranceProof::carry_over(const SurfaceDistance& result) {
   is_proven_ = std::move(is_proven);
 }
 
-void ToleranceProof::assume(const ComparedSurfaces& surfaces) {
+void ToleranceProof::assume(const ComparedSurfaces& surfaces, std::span<const char> is_checked) {
   const TriMesh& mesh = input_->mesh;
   assumed_near_.resize(mesh.positions.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, assumed_near_.size()),
@@ -357,6 +357,10 @@ void ToleranceProof::assume(const ComparedSurfaces& surfaces) {
                     });
   carry_over(surfaces.result());
   assumed_number_ = number_;
+  assumed_triangles_ = surfaces.triangles().corners.size();
+  std::erase_if(assumed_number_, [&](const auto& entry) {
+    return !is_checked.empty() && is_checked[surfaces.triangles().face[entry.second]] != 0;
+  });
 }
 
 /// Takes for proven what there is of the assumed result.
@@ -365,16 +369,15 @@ std::vector<char> ToleranceProof::take_what_is_assumed() {
   std::vector<char> is_near(near_.size());
   for (std::size_t f = 0; f < near_.size(); ++f) is_near[f] = near_[f] != kNone ? 1 : 0;
   if (assumed_near_.empty()) return is_near;
-  std::vector<char> is_there(assumed_number_.size(), 0);
+  std::vector<char> is_there(assumed_triangles_, 0);
   for (const auto& [places, before] : assumed_number_) {
     const auto found = number_.find(places);
-    if (found == number_.end() || static_cast<std::size_t>(before) >= is_there.size()) continue;
+    if (found == number_.end()) continue;
     is_there[before] = 1;
     is_proven_[found->second] = 1;
   }
   const auto is_near_one = [&](Index v) {
-    const auto triangle = static_cast<std::size_t>(assumed_near_[v]);
-    return triangle < is_there.size() && is_there[triangle] != 0;
+    return assumed_near_[v] != kNone && is_there[assumed_near_[v]] != 0;
   };
   tbb::parallel_for(std::size_t{0}, is_near.size(), [&](std::size_t f) {
     if (std::ranges::all_of(input_->mesh.faces[f], is_near_one)) is_near[f] = 1;

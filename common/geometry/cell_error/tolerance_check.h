@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -51,8 +52,10 @@ class ToleranceProof {
 
   /// Takes a result as it is for proven, and what is nearest to the vertices of each face of the
   /// input for near to all of it: from now on only what results have that is not of this one is
-  /// checked. \pre `surfaces` compares with `input`
-  void assume(const ComparedSurfaces& surfaces);
+  /// checked, besides cells of this one that are not assumed.
+  /// \param is_checked  [F of the result] 1: such a cell; empty: none is
+  /// \pre `surfaces` compares with `input`
+  void assume(const ComparedSurfaces& surfaces, std::span<const char> is_checked = {});
 
   /// \return as `check_tolerance`. \pre `surfaces` compares with `input`
   std::vector<Excess> check(const ComparedSurfaces& surfaces);
@@ -84,7 +87,8 @@ class ToleranceProof {
   /// Faces that take further ones, with these.
   std::unordered_map<Index, std::vector<Index>> others_near_;
   std::unordered_map<Triangle, Index, Hash> assumed_number_;  ///< of the assumed result's triangles
-  std::vector<Index> assumed_near_;  ///< [V] such a triangle, nearest to the vertex; or empty
+  std::size_t assumed_triangles_ = 0;  ///< of that result, also those that are checked
+  std::vector<Index> assumed_near_;    ///< [V] such a triangle, nearest to the vertex; or empty
 };
 
 }  // namespace strake

@@ -24,6 +24,18 @@ struct Ties {
   double length = 0;  ///< share by which a later diagonal or ear must be better to be taken
 };
 
+constexpr double kThinAngle = 10 * kDegree;
+
+bool is_thin_face(std::span<const Vec3> positions, std::span<const Index> face) {
+  const std::size_t n = face.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3& p = positions[face[i]];
+    const Vec3 back = positions[face[(i + n - 1) % n]] - p;
+    if (angle_between(back, positions[face[(i + 1) % n]] - p) < kThinAngle) return true;
+  }
+  return false;
+}
+
 /// Cuts ears off one polygon.
 class EarCutter {
  public:
@@ -181,6 +193,15 @@ bool is_concave_face(std::span<const Vec3> positions, std::span<const Index> fac
     }
   }
   return false;
+}
+
+double thin_face_share(const PolyMesh& mesh) {
+  if (mesh.face_count() == 0) return 0;
+  Index thin = 0;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    if (is_thin_face(mesh.positions, mesh.face(f))) ++thin;
+  }
+  return double(thin) / mesh.face_count();
 }
 
 void triangulate_face(std::span<const Vec3> positions, std::span<const Index> face,

@@ -19,6 +19,9 @@ Vec3 newell_normal(std::span<const Vec3> positions, std::span<const Index> face)
 /// product of the two edge lengths at the corner.
 bool is_concave_face(std::span<const Vec3> positions, std::span<const Index> face);
 
+/// Share of the faces that have an angle below 10 degrees, or a side without length; 0 of none.
+double thin_face_share(const PolyMesh& mesh);
+
 /// Splits a polygon into `face.size() - 2` triangles with its orientation, for measuring and
 /// drawing.
 ///

@@ -46,6 +46,31 @@ TEST(Remesh, WithoutAGoalNoiseDoesNotHideTheShape) {
   EXPECT_LT(largest_distance(result), 0.15);
 }
 
+// Few vertices more bring the worst places nearer, in some runs.
+TEST(Remesh, WorstPlacesComeNearerForACount) {
+  SampleOptions sample;
+  sample.faces = 20000;
+  const PolyMesh mesh = make_sample(SampleKind::part, sample);
+  int nearer = 0;
+  for (const std::int64_t count : {350, 500}) {
+    RemeshOptions options;
+    options.trace.vertices = count;
+    options.worst.share = 0;
+    const RemeshResult without = remesh({mesh, {}, {}, {}}, options);
+    options.worst.share = WorstOptions{}.share;
+    const RemeshResult with = remesh({mesh, {}, {}, {}}, options);
+    EXPECT_NEAR(with.quads.mesh.vertex_count(), double(count), 0.05 * double(count));
+    EXPECT_LE(largest_distance(with), largest_distance(without));
+    EXPECT_LE(crossings(with.quads.mesh), crossings(without.quads.mesh));
+    const auto is_worst = [](const auto& report) { return report.first == "refine-worst"; };
+    EXPECT_TRUE(std::ranges::none_of(without.reports, is_worst));
+    if (std::ranges::none_of(with.reports, is_worst)) continue;
+    ++nearer;
+    EXPECT_LT(largest_distance(with), 0.8 * largest_distance(without));
+  }
+  EXPECT_GT(nearer, 0);
+}
+
 // Lines three times as far apart as usual pass a tip by.
 TEST(Remesh, WithoutAGoalATipStays) {
   const PolyMesh mesh = claws(1, 0.7, 0.05, 0.4, 20000);

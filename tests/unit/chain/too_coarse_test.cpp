@@ -22,6 +22,7 @@
 #include "stages/prolong/stage.h"
 #include "stages/refine/stage.h"
 #include "stages/refine/uncross/stage.h"
+#include "stages/refine/worst/stage.h"
 #include "stages/size/stage.h"
 #include "stages/smooth/stage.h"
 #include "stages/tensor/stage.h"
@@ -198,6 +199,7 @@ GoalStages goal_stages() {
           .size = size_stage(),
           .refine = refine_stage(),
           .uncross = refine_uncross_stage(),
+          .worst = refine_worst_stage(),
           .decimate = decimate_stage()};
 }
 

@@ -271,6 +271,31 @@ TEST(ToleranceProof, ChecksOnlyWhatIsNotAsItWasAssumed) {
   EXPECT_TRUE(proof.check(ComparedSurfaces(proof.input(), c.quads)).empty());
 }
 
+/// Of a result that is far off everywhere, only what is not assumed.
+TEST(ToleranceProof, ChecksCellsThatAreNotAssumed) {
+  Case c = grid(16, 8, [](double, double) { return 0.0; });
+  for (Vec3& p : c.quads.mesh.positions) p.z() += 0.05;
+  const auto input = std::make_shared<const InputSurface>(c.mesh);
+  const ComparedSurfaces surfaces(input, c.quads);
+  const auto all = static_cast<std::size_t>(c.quads.mesh.face_count());
+  for (const std::size_t cell : {std::size_t{0}, std::size_t{27}, all - 1}) {
+    std::vector<char> is_checked(all, 0);
+    is_checked[cell] = 1;
+    ToleranceProof proof(input, 0.01);
+    proof.assume(surfaces, is_checked);
+    const std::vector<Excess> found = proof.check(surfaces);
+    std::size_t of_result = 0;
+    for (const Excess& e : found) {
+      if (e.input_face != kNone) continue;
+      ++of_result;
+      EXPECT_EQ(e.cell, static_cast<Index>(cell));
+    }
+    EXPECT_EQ(of_result, 2u);  // its triangles
+    EXPECT_GT(found.size(), of_result);
+    EXPECT_LT(found.size(), check_tolerance(surfaces, 0.01).size() / 4);
+  }
+}
+
 /// The same excesses for any number of threads, and when both surfaces are moved.
 TEST(ToleranceCheck, DependsOnNeitherPlaceNorScale) {
   std::mt19937 random(5);
