@@ -14,6 +14,7 @@
 #include "common/stage/repro.h"
 #include "strake/chain/chain.h"
 #include "strake/commands.h"
+#include "strake/kept_folder.h"
 #include "strake/summary.h"
 
 namespace strake {
@@ -59,31 +60,6 @@ struct RemeshCommand {
   void run();
   void make_output();
 };
-
-/// Keeps each output in the folder as the file "port.hdf", each record as "stage.json", and the
-/// times of all stages as times.json: reports and artifacts hold none, for equal work to give equal
-/// bytes. What an earlier run kept there goes: another one may have other stages.
-/// \throw InputError where the folder cannot be made
-Session::Keeper keeper(const fs::path& folder, const std::vector<const Stage*>& stages) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  std::error_code ignored;
-  if (!fs::is_directory(folder, ignored)) {
-    throw InputError("folder '" + folder.string() + "' cannot be made: " + error.message());
-  }
-  for (const Stage* stage : stages) {
-    fs::remove(folder / (stage->name + ".json"), ignored);
-    fs::remove(folder / (stage->output.name + ".hdf"), ignored);
-  }
-  return [folder](const Session::Kept& kept) {
-    write_text(folder / (kept.stage.name + ".json"), record_json(kept.record));
-    write_text(folder / "times.json", times_json(kept.seconds));
-    if (kept.output == nullptr) return std::string();
-    const fs::path path = folder / (kept.stage.output.name + ".hdf");
-    save_value(path, *kept.output, &kept.mesh, kept.record.provenance);
-    return content_digest(path);
-  };
-}
 
 /// Writes the result, naming the files of its materials as they are seen from there.
 void save_result(const fs::path& output, const QuadMesh& quads, const fs::path& input,
@@ -131,6 +107,11 @@ void RemeshCommand::check() const {
   for (const SideFile& file : side_files())
     read.push_back({"input '" + file.port + "'", file.path});
   check_files(read, output, shell.report_path);
+  if (!keep.empty()) {
+    read.push_back({"output", output});
+    read.push_back({"report", shell.report_path});
+    KeptFolder(keep, chain.stages()).check(read);
+  }
   chain.check_goals();
 }
 
@@ -183,15 +164,15 @@ void RemeshCommand::make_output() {
   console.begin("strake");
   console.report("reading " + input, 0);
   Session session(console);
-  if (!keep.empty()) {
-    session.keep_with(keeper(keep, chain.stages()), [](const Value& value, const TriMesh* mesh) {
-      return content_of(value, mesh);
-    });
-  }
   session.provide("input", load_value(PortKind::polygons, input), input, content_digest(input));
   for (const SideFile& file : side_files()) {
     session.provide(file.port, load_value(file.kind, file.path), file.path,
                     content_digest(file.path));
+  }
+  if (!keep.empty()) {
+    session.keep_with(
+        KeptFolder(keep, chain.stages()).keeper(),
+        [](const Value& value, const TriMesh* mesh) { return content_of(value, mesh); });
   }
   const std::string port = chain.run(session);
   const Report* measures = no_evaluate ? nullptr : &chain.measure(session, port);

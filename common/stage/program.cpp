@@ -90,15 +90,6 @@ void check_paths(const Stage& stage, const Paths& paths, const ShellOptions& she
   check_files(read, paths.output, shell.report_path);
 }
 
-/// Of files that are there by what they are, of others by where they would be.
-bool is_same_file(const std::string& a, const std::string& b) {
-  std::error_code ignored;
-  const auto place = [&](const std::string& path) {
-    return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
-  };
-  return fs::equivalent(a, b, ignored) || place(a) == place(b);
-}
-
 Input load_input(PortKind kind, const std::string& path) {
   Input input = {std::make_shared<Value>(load_value(kind, path)), path, content_digest(path)};
   if (is_artifact(path)) input.provenance = read_artifact_info(path).provenance;
@@ -290,6 +281,14 @@ void add_options(CLI::App& target, const OptionList& options) {
         ->type_name(type_text(option))
         ->default_str(option.value());
   }
+}
+
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code ignored;
+  const auto place = [&](const std::string& path) {
+    return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
+  };
+  return fs::equivalent(a, b, ignored) || place(a) == place(b);
 }
 
 void check_files(const std::vector<NamedFile>& read, const std::string& output,

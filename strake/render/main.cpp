@@ -10,6 +10,7 @@
 
 #include "common/artifact/meshfile/mesh_reader.h"
 #include "common/core/error.h"
+#include "common/core/text.h"
 #include "common/stage/build_facts.h"
 #include "common/stage/program.h"
 #include "strake/render/camera.h"
@@ -106,7 +107,18 @@ void add_run_arguments(CLI::App& app, Arguments& arguments) {
       ->excludes("--surface", "--colour", "--layers", "--section");
 }
 
+/// \throw UsageError  where the picture would take the place of what is drawn, or of another model
+void check_output(const Arguments& arguments) {
+  const std::filesystem::path output = arguments.output;
+  if (lower_case(output.extension().string()) != ".png") {
+    throw UsageError("output '" + arguments.output + "' is no PNG file; give a name with .png");
+  }
+  check_files({{"input", arguments.mesh}, {"input 'lines'", arguments.lines}}, arguments.output,
+              "");
+}
+
 void interpret(Arguments& arguments) {
+  check_output(arguments);
   char rest = 0;
   DrawOptions& size = arguments.draw;
   constexpr int kLargest = 16384;

@@ -121,6 +121,36 @@ TEST_F(FrontEnd, AFolderHoldsTheLastRunAlone) {
   EXPECT_EQ(bytes("kept/mine.txt"), "a note");
 }
 
+/// A run that comes to nothing leaves what an earlier one kept.
+TEST_F(FrontEnd, AFolderStaysUntilThereIsSomethingToKeep) {
+  must("strake remesh torus.ply -q -o out.obj --keep kept --vertices 400");
+  const std::string mesh = bytes("kept/mesh.hdf");
+  put("broken.obj", "v 0 0 0\nnothing else\n");
+  must_fail(kBadInput, "strake remesh missing.obj -o q.obj --keep kept", "missing.obj");
+  must_fail(kBadInput, "strake remesh broken.obj -o q.obj --keep kept", "broken.obj");
+  must_fail(kUsage, "strake remesh torus.ply -o q.obj --keep kept --seed x", "seed");
+  for (const char* kept : {"import.json", "refined.hdf", "fitted.hdf", "evaluate.json"}) {
+    EXPECT_TRUE(std::filesystem::exists(file("kept") / kept)) << kept;
+  }
+  EXPECT_EQ(bytes("kept/mesh.hdf"), mesh);
+}
+
+/// Neither files of the same command nor those of somebody else are replaced.
+TEST_F(FrontEnd, AFolderIsNotThatOfOtherFiles) {
+  must("strake remesh torus.ply -q -o out.obj --keep kept --vertices 400");
+  const std::string fitted = bytes("kept/fitted.hdf");
+  must_fail(kUsage, "strake remesh kept/fitted.hdf -o q.obj --keep kept", "the input");
+  must_fail(kUsage, "strake remesh torus.ply -o kept/mesh.hdf --keep kept", "the output");
+  must_fail(kUsage, "strake remesh torus.ply -o q.obj --report kept/trace.json --keep kept",
+            "the report");
+  EXPECT_EQ(bytes("kept/fitted.hdf"), fitted);
+  std::filesystem::create_directory(file("own"));
+  put("own/size.hdf", "mine");
+  must_fail(kUsage, "strake remesh torus.ply -o q.obj --keep own", "size.hdf");
+  EXPECT_EQ(bytes("own/size.hdf"), "mine");
+  EXPECT_FALSE(std::filesystem::exists(file("q.obj")));
+}
+
 TEST_F(FrontEnd, TakesAnyRatioOfTheWorkingMesh) {
   must("strake remesh torus.ply -q --no-evaluate -o out.obj --vertices 100 --working-ratio 0.01");
 }

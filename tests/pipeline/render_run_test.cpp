@@ -8,6 +8,17 @@ namespace {
 
 using RenderRun = ProgramTest;
 
+TEST_F(RenderRun, AModelIsNotReplacedByItsPicture) {
+  must("strake sample part -o part.ply --faces 500");
+  const std::string part = bytes("part.ply");
+  must_fail(kUsage, "strake-render part.ply -o part.ply", ".png");
+  must_fail(kUsage, "strake-render part.ply -o part.jpg", ".png");
+  std::filesystem::rename(file("part.ply"), file("part.png"));
+  must_fail(kUsage, "strake-render part.png -o part.png", "is the input");
+  EXPECT_EQ(bytes("part.png"), part);
+  EXPECT_FALSE(std::filesystem::exists(file("part.jpg")));
+}
+
 TEST_F(RenderRun, DrawsEachLayerOfARunAndAgreesWithTheAddressOfAView) {
   must("strake sample part -o part.ply --faces 2000");
   must("strake remesh part.ply -q -o part.obj --vertices 400 --keep run");

@@ -1,0 +1,70 @@
+#include "strake/kept_folder.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "common/artifact/artifact.h"
+#include "common/artifact/text_file.h"
+#include "common/core/error.h"
+
+namespace strake {
+namespace fs = std::filesystem;
+
+KeptFolder::KeptFolder(fs::path folder, std::vector<const Stage*> stages)
+    : folder_(std::move(folder)), stages_(std::move(stages)) {}
+
+std::vector<fs::path> KeptFolder::files() const {
+  std::vector<fs::path> all;
+  for (const Stage* stage : stages_) {
+    all.push_back(folder_ / (stage->name + ".json"));
+    all.push_back(folder_ / (stage->output.name + ".hdf"));
+  }
+  return all;
+}
+
+void KeptFolder::check(const std::vector<NamedFile>& others) const {
+  std::vector<fs::path> written = files();
+  for (const NamedFile& other : others) {
+    for (const fs::path& path : written) {
+      if (other.path.empty() || !is_same_file(path.string(), other.path)) continue;
+      throw UsageError(fmt::format("--keep '{}' would replace '{}', the {}; give another folder",
+                                   folder_.string(), other.path, other.role));
+    }
+  }
+  std::error_code ignored;
+  if (fs::exists(times(), ignored)) return;
+  for (const fs::path& path : written) {
+    if (!fs::exists(path, ignored)) continue;
+    throw UsageError(fmt::format(
+        "folder '{}' has '{}' and is not that of a kept run; give a new folder, or that of one",
+        folder_.string(), path.filename().string()));
+  }
+}
+
+Session::Keeper KeptFolder::keeper() const {
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  std::error_code ignored;
+  if (!fs::is_directory(folder_, ignored)) {
+    throw InputError("folder '" + folder_.string() + "' cannot be made: " + error.message());
+  }
+  return [*this, has_begun = std::make_shared<bool>(false)](const Session::Kept& kept) {
+    // First, as it tells that the others are of kept runs.
+    write_text(times(), times_json(kept.seconds));
+    if (!std::exchange(*has_begun, true)) {
+      std::error_code left;
+      for (const fs::path& path : files()) fs::remove(path, left);
+    }
+    write_text(folder_ / (kept.stage.name + ".json"), record_json(kept.record));
+    if (kept.output == nullptr) return std::string();
+    const fs::path path = folder_ / (kept.stage.output.name + ".hdf");
+    save_value(path, *kept.output, &kept.mesh, kept.record.provenance);
+    return content_digest(path);
+  };
+}
+
+}  // namespace strake
