@@ -49,6 +49,8 @@ struct SizeField {
 struct DensityField {
   std::string mesh_id;        ///< "": it goes by the vertices of the file that was imported
   std::vector<double> value;  ///< [vertices of that file] positive
+  /// [vertices of that file] where they lie, model coordinates; empty where nobody says
+  std::vector<Vec3> position = {};
 };
 
 }  // namespace strake

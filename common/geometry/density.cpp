@@ -6,10 +6,15 @@
 #include <utility>
 
 #include "common/core/error.h"
+#include "common/core/place_text.h"
 #include "common/geometry/topology/vertex_ring.h"
 
 namespace strake {
 namespace {
+
+/// A vertex of a density is that of the mesh where it is no farther from it than this share of the
+/// diagonal, as one of a coarser mesh is.
+constexpr double kElsewhere = 0.01;
 
 /// [V] the density of each vertex; of those that import inserted the mean of the ones around them,
 /// from those that were in the file inwards; 1 where there is none.
@@ -43,6 +48,28 @@ std::vector<double> density_at_vertices(const TriMesh& mesh, const DensityField&
   return values;
 }
 
+/// \throw PreconditionError where most vertices of the density lie elsewhere
+void require_same_places(const TriMesh& mesh, const DensityField& density) {
+  if (density.position.empty()) return;
+  Index known = 0;
+  Index elsewhere = 0;
+  Index example = kNone;
+  const auto place = [&](Index v) { return Vec3(mesh.positions[v] + mesh.origin); };
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    if (mesh.source_vertex[v] == kNone) continue;
+    ++known;
+    const Vec3& p = density.position[mesh.source_vertex[v]];
+    if ((p - place(v)).norm() <= kElsewhere * mesh.diagonal) continue;
+    if (elsewhere++ == 0) example = v;
+  }
+  if (2 * elsewhere <= known) return;
+  const Index source = mesh.source_vertex[example];
+  throw PreconditionError("vertex " + std::to_string(source) + " of the density lies at " +
+                          place_text(density.position[source], mesh.diagonal) +
+                          ", and that of the mesh at " + place_text(place(example), mesh.diagonal) +
+                          "; give a density of that file's vertices, in their order");
+}
+
 }  // namespace
 
 std::vector<double> density_at_wedges(const TriMesh& mesh, const DensityField& density) {
@@ -56,6 +83,7 @@ std::vector<double> density_at_wedges(const TriMesh& mesh, const DensityField& d
                             std::to_string(last + 1) +
                             " or more; give a density of that file's vertices");
   }
+  require_same_places(mesh, density);
   for (std::size_t i = 0; i < density.value.size(); ++i) {
     if (density.value[i] > 0 && std::isfinite(density.value[i])) continue;
     throw InputError("the density of vertex " + std::to_string(i) + " is no positive number");

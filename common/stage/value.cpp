@@ -54,7 +54,7 @@ Value read_value(PortKind kind, const fs::path& path) {
     case PortKind::size:
       return read_size_field(path);
     case PortKind::density:
-      return DensityField{"", read_density(path)};
+      return read_density(path);
     case PortKind::guides:
       return read_guides(path);
     case PortKind::report:

@@ -10,6 +10,7 @@
 #include "common/geometry/frames.h"
 #include "common/geometry/poly_topology/poly_edges.h"
 #include "common/geometry/topology/vertex_ring.h"
+#include "stages/fit/guide_vertices.h"
 #include "stages/fit/result_components.h"
 
 namespace strake::fitting {
@@ -83,15 +84,26 @@ VertexPlaces::VertexPlaces(const TriMesh& mesh, const SurfaceDistance& surface,
   }
   const std::vector<std::uint8_t> is_of_input =
       vertices_of_input(mesh, quads, vertex_components(quads.mesh));
+  const std::vector<std::optional<Vec3>> ways =
+      ways_to_guides(mesh, quads, field == nullptr ? LaidGuides() : field->guides);
   tbb::parallel_for(Index{0}, quads.mesh.vertex_count(), [&](Index v) {
     if (is_of_input[v] != 0) {
       lines_[v].kind = Kind::fixed;
     } else {
       place_on_line(v);
+      if (lines_[v].kind == Kind::free && ways[v]) put_on_guide(v, *ways[v]);
       lines_[v].is_on_course = lines_[v].kind == Kind::line && is_off_boundary(v);
     }
     normals_[v] = normal_at_foot(v);
   });
+}
+
+void VertexPlaces::put_on_guide(Index v, const Vec3& way) {
+  lines_[v].kind = Kind::guided;
+  const Vec3 foot = place_of(mesh_, feet_[v]) + way;
+  const ClosestPoint nearest = nearest_foot(v, foot);
+  feet_[v] = {nearest.triangle, nearest.barycentric};
+  positions_[v] += way;
 }
 
 void VertexPlaces::place_on_line(Index v) {
@@ -214,6 +226,8 @@ Mat3 VertexPlaces::freedom(Index v) const {
       const Vec3 t = tangent(lines_[v]);
       return t * t.transpose();
     }
+    case Kind::guided:
+      return normals_[v] * normals_[v].transpose();
     case Kind::fixed:
       break;
   }
@@ -225,6 +239,10 @@ void VertexPlaces::move(Index v, const Vec3& move) {
   if (line.kind == Kind::fixed) return;
   if (line.kind == Kind::free) {
     positions_[v] += move;
+    return;
+  }
+  if (line.kind == Kind::guided) {
+    positions_[v] += freedom(v) * move;
     return;
   }
   line = slide(line, move.dot(tangent(line)));
@@ -256,21 +274,24 @@ Vec3 VertexPlaces::cross_arm(const PrincipalField& field, Index v) const {
   return frame.world_from_tangent(strake::cross_arm(sum, Vec2(1, 0)));
 }
 
+ClosestPoint VertexPlaces::nearest_foot(Index v, const Vec3& p) const {
+  const Index face = feet_[v].face;
+  const auto& [a, b, c] = mesh_.faces[face];
+  const double bound = closest_point_on_triangle(p, mesh_.positions[a], mesh_.positions[b],
+                                                 mesh_.positions[c])
+                           .distance;
+  const Vec3 side = face_normals_[face];
+  return surface_.closest_if(p, bound, [&](Index f) {
+    return f == face || (face_normals_[f].dot(side) > kSameSheet && components_.has_both(f, face));
+  });
+}
+
 void VertexPlaces::update_feet() {
   tbb::parallel_for(std::size_t{0}, positions_.size(), [&](std::size_t v) {
     if (lines_[v].kind == Kind::line) {
       feet_[v] = point_along(lines_[v].halfedge, lines_[v].along);
-    } else if (lines_[v].kind == Kind::free) {
-      const Index face = feet_[v].face;
-      const auto& [a, b, c] = mesh_.faces[face];
-      const double bound = closest_point_on_triangle(positions_[v], mesh_.positions[a],
-                                                     mesh_.positions[b], mesh_.positions[c])
-                               .distance;
-      const Vec3 side = face_normals_[face];
-      const ClosestPoint nearest = surface_.closest_if(positions_[v], bound, [&](Index f) {
-        return f == face ||
-               (face_normals_[f].dot(side) > kSameSheet && components_.has_both(f, face));
-      });
+    } else if (lines_[v].kind != Kind::fixed) {
+      const ClosestPoint nearest = nearest_foot(static_cast<Index>(v), positions_[v]);
       feet_[v] = {nearest.triangle, nearest.barycentric};
     }
     normals_[v] = normal_at_foot(static_cast<Index>(v));

@@ -19,11 +19,14 @@ namespace strake::fitting {
 /// A vertex on a feature or boundary line stays on it: it slides along the line's edges, up to the
 /// corner where the line ends, or once around. One that comes off a ragged boundary slides along
 /// the course of that. Corners do not move at all, nor does a component that is the input's
-/// triangles. All others move freely, and their foot on the surface follows, on its component.
+/// triangles. One beside a guide line of the field
+/// is put onto it, and moves along the surface's normal only. All others
+/// move freely, and their foot on the surface follows, on its component.
 class VertexPlaces {
  public:
   /// \param mesh, surface  the input and its faces, in the same order
-  /// \param field          its normals are taken, to save time and memory; nullptr: those of `mesh`
+  /// \param field          its normals are taken, to save time and memory; nullptr: those of `mesh`,
+  ///                       and no guide lines
   VertexPlaces(const TriMesh& mesh, const SurfaceDistance& surface, const QuadMesh& quads,
                const PrincipalField* field = nullptr);
   VertexPlaces(const VertexPlaces&) = delete;
@@ -67,7 +70,7 @@ class VertexPlaces {
   void store(QuadMesh& quads) const;
 
  private:
-  enum class Kind : std::uint8_t { free, line, fixed };
+  enum class Kind : std::uint8_t { free, line, guided, fixed };
   /// A place on the line of barrier edges that a vertex slides along.
   struct LinePlace {
     Kind kind = Kind::free;
@@ -77,6 +80,10 @@ class VertexPlaces {
   };
 
   void place_on_line(Index v);
+  /// \param way  from the vertex's foot to the guide
+  void put_on_guide(Index v, const Vec3& way);
+  /// The point of the sheet on which the foot of a vertex lies that is nearest to `p`.
+  [[nodiscard]] ClosestPoint nearest_foot(Index v, const Vec3& p) const;
   /// Whether lines end at a vertex of the input.
   [[nodiscard]] bool is_corner(Index vertex) const {
     return (borders_.is_corner.empty() ? mesh_.is_corner : borders_.is_corner)[vertex] != 0;

@@ -26,7 +26,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   parse([&] { (void)strake::parse_edge_list(bytes, "edges"); });
   parse([&] { (void)strake::parse_guides(bytes, "guides"); });
   parse([&] {
-    for (const double density : strake::parse_density(bytes)) {
+    for (const double density : strake::parse_density(bytes).value) {
       if (!(density > 0)) std::abort();
     }
   });

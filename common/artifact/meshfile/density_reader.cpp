@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "common/artifact/meshfile/mapped_file.h"
 #include "common/artifact/meshfile/ply_header.h"
@@ -17,37 +21,52 @@ using namespace meshfile;
 
 constexpr const char* kProperty = "density";
 
+/// The columns of the density and, where there are all three, of x, y and z.
+/// \return none: there is no density
+std::vector<std::size_t> wanted_columns(const PlyElement& element) {
+  std::vector<std::size_t> columns;
+  for (const char* name : {kProperty, "x", "y", "z"}) {
+    const auto column = number_column(element, name);
+    if (!column) break;
+    columns.push_back(*column);
+  }
+  if (columns.size() < 4 && !columns.empty()) columns.resize(1);
+  return columns;
+}
+
 template <class Source>
-std::vector<double> read_vertices(Source source, const PlyHeader& header) {
+DensityField read_vertices(Source source, const PlyHeader& header) {
   for (const PlyElement& element : header.elements) {
     std::vector<std::size_t> wanted;
     if (element.properties.empty()) continue;  // any number of rows of no bytes
     if (element.name == "vertex") {
-      const auto column = number_column(element, kProperty);
-      if (!column) break;
-      wanted = {*column};
+      wanted = wanted_columns(element);
+      if (wanted.empty()) break;
     }
-    std::vector<double> values;
+    DensityField density;
     for (std::uint64_t row = 0; row < element.count; ++row) {
-      double value = 0;
-      if (!read_row(source, element, wanted, {&value, 1})) {
+      std::array<double, 4> values{};
+      if (!read_row(source, element, wanted, values)) {
         throw InputError(fmt::format("ends before vertex {} of {}", row, element.count));
       }
       if (wanted.empty()) continue;
-      if (!(value > 0) || !std::isfinite(value)) {
+      if (!(values[0] > 0) || !std::isfinite(values[0])) {
         throw InputError(fmt::format(
-            "has the density {} at vertex {}; it must be a positive number", value, row));
+            "has the density {} at vertex {}; it must be a positive number", values[0], row));
       }
-      values.push_back(value);
+      density.value.push_back(values[0]);
+      if (wanted.size() == values.size()) {
+        density.position.emplace_back(values[1], values[2], values[3]);
+      }
     }
-    if (!wanted.empty()) return values;
+    if (!wanted.empty()) return density;
   }
   throw InputError(fmt::format("has no vertex property '{}'", kProperty));
 }
 
 }  // namespace
 
-std::vector<double> parse_density(std::string_view bytes) {
+DensityField parse_density(std::string_view bytes) {
   if (!bytes.starts_with("ply")) throw InputError("is no PLY file, which alone can hold a density");
   ReadReport report;
   const PlyHeader header = read_ply_header(bytes, report);
@@ -55,7 +74,7 @@ std::vector<double> parse_density(std::string_view bytes) {
                      [&](const auto& source) { return read_vertices(source, header); });
 }
 
-std::vector<double> read_density(const std::filesystem::path& path) {
+DensityField read_density(const std::filesystem::path& path) {
   const MappedFile file(path);
   try {
     return parse_density(file.bytes());

@@ -6,6 +6,7 @@
 
 #include "common/artifact/meshfile/density_reader.h"
 #include "common/core/error.h"
+#include "common/geometry/density.h"
 #include "common/geometry/samples/samples.h"
 #include "stages/size/closer_near.h"
 #include "tests/support/chain.h"
@@ -246,6 +247,21 @@ TEST(Density, OfAnotherMeshIsRefused) {
       PreconditionError);
 }
 
+/// As many vertices, but in another order: no number tells.
+TEST(Density, OfOtherPlacesIsRefused) {
+  const support::Prepared prepared = support::prepare(make_sample(SampleKind::plane, {}));
+  const TriMesh& mesh = prepared.mesh;
+  DensityField density;
+  density.position.resize(mesh.positions.size());
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    density.value.push_back(1);
+    density.position[mesh.source_vertex[v]] = mesh.positions[v] + mesh.origin;
+  }
+  EXPECT_EQ(density_at_wedges(mesh, density).size(), mesh.wedge_vertex.size());
+  std::ranges::reverse(density.position);
+  EXPECT_THROW((void)density_at_wedges(mesh, density), PreconditionError);
+}
+
 std::string ply(const std::string& property, const std::string& rows) {
   return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n" +
          property +
@@ -254,9 +270,10 @@ std::string ply(const std::string& property, const std::string& rows) {
 }
 
 TEST(Density, IsReadFromPly) {
-  const std::vector<double> values =
-      parse_density(ply("property double density\n", "0 0 1.5 0\n1 0 0.25 0\n0 1 7 0\n"));
-  EXPECT_EQ(values, (std::vector<double>{1.5, 0.25, 7}));
+  const DensityField density =
+      parse_density(ply("property double density\n", "0 0 1.5 0\n1 0 0.25 0\n0 1 7 4\n"));
+  EXPECT_EQ(density.value, (std::vector<double>{1.5, 0.25, 7}));
+  EXPECT_EQ(density.position, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 4}}));
 }
 
 /// Rows without properties take no bytes: as many as are announced, and none.
@@ -264,7 +281,8 @@ TEST(Density, ElementsWithoutPropertiesTakeNoTime) {
   const std::string bytes =
       "ply\nformat binary_little_endian 1.0\nelement nothing 9000000000000000000\n"
       "element vertex 1\nproperty uchar density\nend_header\n\x02";
-  EXPECT_EQ(parse_density(bytes), std::vector<double>{2});
+  EXPECT_EQ(parse_density(bytes).value, std::vector<double>{2});
+  EXPECT_TRUE(parse_density(bytes).position.empty());
 }
 
 TEST(Density, WhatCannotBeOneIsRefusedWithItsPlace) {
