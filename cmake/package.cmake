@@ -32,6 +32,8 @@ foreach(stage import tensor smooth coarsen prolong trace mesh lift decimate fit 
   install(FILES stages/${stage}/${stage}.h DESTINATION ${STRAKE_INSTALL_HEADERS}/stages/${stage}
           COMPONENT development)
 endforeach()
+install(FILES stages/refine/worst.h DESTINATION ${STRAKE_INSTALL_HEADERS}/stages/refine
+        COMPONENT development)
 install(FILES common/artifact/meshfile/mesh_reader.h common/artifact/meshfile/mesh_writer.h
         DESTINATION ${STRAKE_INSTALL_HEADERS}/common/artifact/meshfile COMPONENT development)
 install(FILES strake/strake.h DESTINATION ${STRAKE_INSTALL_HEADERS}/strake COMPONENT development)

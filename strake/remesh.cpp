@@ -113,6 +113,9 @@ void RemeshCommand::check() const {
     KeptFolder(keep, chain.stages()).check(read);
   }
   chain.check_goals();
+  if (no_evaluate && !chain.evaluate.option("evaluate-tolerance").value().empty()) {
+    throw UsageError("--evaluate-tolerance takes what --no-evaluate leaves out; give one of them");
+  }
 }
 
 std::vector<SideFile> RemeshCommand::side_files() const {

@@ -277,9 +277,9 @@ Vec3 VertexPlaces::cross_arm(const PrincipalField& field, Index v) const {
 ClosestPoint VertexPlaces::nearest_foot(Index v, const Vec3& p) const {
   const Index face = feet_[v].face;
   const auto& [a, b, c] = mesh_.faces[face];
-  const double bound = closest_point_on_triangle(p, mesh_.positions[a], mesh_.positions[b],
-                                                 mesh_.positions[c])
-                           .distance;
+  const double bound =
+      closest_point_on_triangle(p, mesh_.positions[a], mesh_.positions[b], mesh_.positions[c])
+          .distance;
   const Vec3 side = face_normals_[face];
   return surface_.closest_if(p, bound, [&](Index f) {
     return f == face || (face_normals_[f].dot(side) > kSameSheet && components_.has_both(f, face));

@@ -6,6 +6,8 @@
 #include <limits>
 #include <optional>
 #include <random>
+#include <string>
+#include <tuple>
 #include <utility>
 
 #include "common/core/error.h"
@@ -26,6 +28,7 @@ constexpr Length kDefaultTolerance = percent(0.1);
 constexpr double kShareOfFamily = 0.5;
 constexpr Length kDefaultMaxSpacing = percent(5);  ///< [MK04] section 3.2, at the default tolerance
 constexpr double kStopFractionOfDensity = 0.6;
+constexpr double kFarTooMany = 4;          ///< vertices, over those wanted
 constexpr double kLargestCell = 3;         ///< in mean cell lengths, where a count is wanted
 constexpr double kSmallestSpacing = 1e-4;  ///< share of the diagonal
 constexpr Index kSeedsPerComponent = 8;
@@ -90,6 +93,17 @@ std::optional<double> wanted_count(const TraceOptions& options) {
   return std::nullopt;
 }
 
+/// \param least  vertices where all lines are as far apart as they may be
+/// \throw UsageError where that are more than are wanted
+void require_room(double least, double count, const TraceOptions& options) {
+  constexpr double kClearly = 1.1;
+  if (least <= kClearly * count) return;
+  throw UsageError("lines at most " + options.max_spacing->to_string() +
+                   " apart (--max-spacing) give " + std::to_string(std::llround(least)) +
+                   " vertices or more, and " + std::to_string(std::llround(count)) +
+                   " are wanted; leave one of them out");
+}
+
 /// How far lines are to be apart, but for a factor on all distances.
 class WantedSpacing {
  public:
@@ -112,16 +126,21 @@ class WantedSpacing {
     if (const auto count = wanted_count(options)) {
       double area = 0;
       for (const double a : model_.areas()) area += a;
+      if (options.max_spacing) require_room(area / std::pow(limits_.largest, 2), *count, options);
       // Relative to the mean cell: flats may be coarse, but not out of proportion.
       if (!options.max_spacing) limits_.largest = kLargestCell * std::sqrt(area / *count);
-      tolerance_of_family_ = model_.for_count(*count, limits_).first;
+      Spacing spacing;
+      std::tie(tolerance_of_family_, spacing) = model_.for_count(*count, limits_);
+      // No tolerance makes up for a density that is high nearly everywhere it is not low.
+      const double excess = predicted_vertices(model_.areas(), spacing) / *count;
+      if (excess > kFarTooMany) own_scale_ = std::sqrt(excess);
     }
   }
 
   /// \param scale  factor on all distances, positive
   [[nodiscard]] Spacing at(double scale) const {
     SpacingLimits limits = limits_;
-    limits.scale = scale;
+    limits.scale = scale * own_scale_;
     Spacing spacing = model_.for_tolerance(tolerance_of_family_, limits);
     if (line_flow_ > 0) model_.follow_lines(line_flow_, limits, spacing);
     return spacing;
@@ -135,6 +154,7 @@ class WantedSpacing {
   double line_flow_;
   SpacingLimits limits_;
   double tolerance_of_family_ = 0;
+  double own_scale_ = 1;  ///< factor on all distances besides that asked for
 };
 
 /// Height of teeth of ragged boundaries over the middle that lines need not follow, model units.

@@ -123,6 +123,18 @@ void Chain::check_goals() const {
   if (goals > 1) {
     throw UsageError("--tolerance, --vertices and --faces exclude each other; give one of them");
   }
+  const Chain untouched;
+  const auto require_untouched = [](const Stage& stage, const Stage& other, const char* name) {
+    if (stage.option(name).value() == other.option(name).value()) return;
+    throw UsageError(fmt::format(
+        "--{} follows from the goal here, and is for the program strake-{}; give --tolerance, "
+        "--vertices or --faces",
+        name, stage.name));
+  };
+  require_untouched(refine, untouched.refine, "refine-tolerance");
+  require_untouched(refine, untouched.refine, "refine-vertices");
+  require_untouched(decimate, untouched.decimate, "decimate-vertices");
+  require_untouched(coarsen, untouched.coarsen, "coarse-vertices");
 }
 
 std::string Chain::reach_goal(Session& session) const {
@@ -237,10 +249,15 @@ const Report& Chain::measure(Session& session, const std::string& port) const {
                          std::string(error.what()) + "; please report this model");
   }
   session.keep(evaluate);
-  if (is_proven) {
-    const double diagonal = session.get<TriMesh>("mesh").diagonal;
-    say_what_is_proven(session, Length::parse(tolerance).resolve(diagonal));
+  if (!tolerance.empty()) {
+    const double wanted = Length::parse(tolerance).resolve(session.get<TriMesh>("mesh").diagonal);
+    if (is_proven) {
+      say_what_is_proven(session, wanted);
+    } else {
+      warn_of_distance(session, *report, wanted);
+    }
   }
+  warn_of_listed_edges(session, *report);
   return *report;
 }
 

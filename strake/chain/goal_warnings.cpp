@@ -16,6 +16,8 @@ namespace {
 
 /// Vertices of a result within a tolerance, over those of the input, of which the user is told.
 constexpr Index kExcessive = 2;
+/// Share of the length of feature lines from which on nobody needs to be told.
+constexpr double kNearlyKept = 0.97;
 
 /// Share of a tolerance that need not be told.
 constexpr double kNegligible = 0.01;
@@ -84,6 +86,23 @@ void say_what_is_proven(Session& session, double tolerance) {
       "warning: the tolerance is proven for the mesh after repairs{}, and these {}: the "
       "result may be farther from the file by that",
       smoothed > 0 ? " and --denoise" : "", what));
+}
+
+void warn_of_distance(Session& session, const Report& measures, double tolerance) {
+  const double largest = measures.number("distance.max").value_or(0);
+  if (largest <= tolerance) return;
+  session.say(fmt::format(
+      "warning: the result is {:.3g} off the surface, more than the tolerance of {:.3g}", largest,
+      tolerance));
+}
+
+void warn_of_listed_edges(Session& session, const Report& measures) {
+  const double kept = measures.number("features.kept_share").value_or(1);
+  if (!session.has("feature-edges") || kept >= kNearlyKept) return;
+  session.say(fmt::format(
+      "warning: {:.0f} % of the length of feature lines have edges along them: short ones are left "
+      "out where cells are large; ask for more of them",
+      100 * kept));
 }
 
 }  // namespace strake

@@ -121,6 +121,52 @@ TEST_F(FrontEnd, AFolderHoldsTheLastRunAlone) {
   EXPECT_EQ(bytes("kept/mine.txt"), "a note");
 }
 
+TEST_F(FrontEnd, RefusesOptionsThatContradictEachOther) {
+  const auto refused = [&](const std::string& options, const std::string& said) {
+    must_fail(kUsage, "strake remesh torus.ply -o q.obj " + options, said);
+    EXPECT_FALSE(std::filesystem::exists(file("q.obj"))) << options;
+  };
+  refused("--tolerance 0.3% --refine-tolerance 0.1%", "strake-refine; give --tolerance");
+  refused("--refine-tolerance 0.1%", "strake-refine; give --tolerance");
+  refused("--vertices 300 --refine-vertices 400", "strake-refine; give");
+  refused("--vertices 300 --decimate-vertices 400", "strake-decimate; give");
+  refused("--vertices 300 --coarse-vertices 4000", "strake-coarsen; give");
+  refused("--no-evaluate --evaluate-tolerance 0.1%", "--no-evaluate");
+  refused("--vertices 300 --max-spacing 0.2%", "and 300 are wanted");
+}
+
+/// What steers lines only is not proven; what comes of it is told.
+TEST_F(FrontEnd, SaysWhereAToleranceThatOnlySteersIsMissed) {
+  must("strake sample part -o part.ply --faces 6000");
+  const Outcome missed = run("strake remesh part.ply -o q.obj --tolerance 0.05% --pure-quads");
+  EXPECT_EQ(missed.exit_code, 0);
+  EXPECT_NE(missed.err.find("more than the tolerance of"), std::string::npos) << missed.err;
+}
+
+/// A short line between cells that are far larger.
+TEST_F(FrontEnd, SaysWhereListedEdgesAreLost) {
+  std::string grid;
+  for (int y = 0; y <= 40; ++y) {
+    for (int x = 0; x <= 40; ++x) {
+      grid += "v " + std::to_string(x) + " " + std::to_string(y) + " " +
+              std::to_string(0.02 * (x * x + y * y) / 10) + "\n";
+    }
+  }
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 40; ++x) {
+      const int v = 41 * y + x + 1;
+      grid += "f " + std::to_string(v) + " " + std::to_string(v + 1) + " " +
+              std::to_string(v + 42) + " " + std::to_string(v + 41) + "\n";
+    }
+  }
+  put("grid.obj", grid);
+  put("edges.txt", std::to_string(41 * 20 + 20) + " " + std::to_string(41 * 20 + 21) + "\n");
+  const Outcome lost =
+      run("strake remesh grid.obj -o q.obj --vertices 60 --feature-edges edges.txt");
+  EXPECT_EQ(lost.exit_code, 0) << lost.err;
+  EXPECT_NE(lost.err.find("of the length of feature lines"), std::string::npos) << lost.err;
+}
+
 /// A run that comes to nothing leaves what an earlier one kept.
 TEST_F(FrontEnd, AFolderStaysUntilThereIsSomethingToKeep) {
   must("strake remesh torus.ply -q -o out.obj --keep kept --vertices 400");
@@ -275,7 +321,7 @@ TEST_F(FrontEnd, LogsAsOneJsonObjectALine) {
     EXPECT_LE(event.at("fraction"), 1.0);
   }
   EXPECT_EQ(labels, (std::set<std::string>{"strake", "import", "tensor", "smooth", "trace", "size",
-                                           "mesh", "refine", "fit", "evaluate"}));
+                                           "mesh", "refine", "refine-worst", "fit", "evaluate"}));
 }
 
 TEST_F(FrontEnd, LogsErrorsAsJsonToo) {

@@ -7,6 +7,7 @@
 #include "common/artifact/meshfile/density_reader.h"
 #include "common/core/error.h"
 #include "common/geometry/density.h"
+#include "common/geometry/mesh_measures.h"
 #include "common/geometry/samples/samples.h"
 #include "stages/size/closer_near.h"
 #include "tests/support/chain.h"
@@ -236,6 +237,29 @@ TEST(Density, DistancesShrinkWithItsRoot) {
     (z > 0 ? upper_count : lower_count) += 1;
   }
   EXPECT_NEAR((lower / lower_count) / (upper / upper_count), std::sqrt(2), 0.03);
+}
+
+/// A density that differs by a million took a million vertices where 500 were wanted.
+TEST(Density, LinesOfACountAreNotFarTooMany) {
+  const support::Prepared prepared = support::prepare(make_sample(SampleKind::sphere, {}));
+  const TriMesh& mesh = prepared.mesh;
+  DensityField density;
+  density.value.resize(mesh.positions.size());
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    density.value[mesh.source_vertex[v]] = mesh.positions[v].z() > 0 ? 1e6 : 1;
+  }
+  TraceOptions options;
+  options.vertices = 500;
+  SilentObserver observer;
+  const LineSet lines =
+      trace_lines(mesh, prepared.field, options, observer, {nullptr, &density}).lines;
+  const std::vector<double> areas = wedge_areas(mesh);
+  double cells = 0;
+  for (std::size_t w = 0; w < areas.size(); ++w) {
+    cells += areas[w] / (lines.spacing_along_min[w] * lines.spacing_along_max[w]);
+  }
+  EXPECT_GT(cells, 250);
+  EXPECT_LT(cells, 5 * 500);
 }
 
 TEST(Density, OfAnotherMeshIsRefused) {
