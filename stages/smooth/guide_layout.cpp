@@ -53,7 +53,7 @@ class GuideLayer {
     if (foot.triangle != kNone) return {point, foot};
     const Vec3 at = point + mesh_.origin;
     throw InputError(fmt::format(
-        "'{}', line {}: at ({}, {}, {}) it is {:.3g} from the surface, more than {:g} % of its "
+        "'{}', guide {}: at ({}, {}, {}) it is {:.3g} from the surface, more than {:g} % of its "
         "diagonal; draw it nearer to the surface, or with more points",
         guides_.name, line_ + 1, at.x(), at.y(), at.z(), surface_.closest(point).distance,
         100 * kFarthest));

@@ -41,14 +41,14 @@ class GuideBuilder {
   /// \param number  of a point, from 1
   void extend_guide(std::int64_t number) {
     if (number < 1 || number > point_count()) {
-      fail(fmt::format("names vertex {} in line {}, but has {} vertices up to there", number,
+      fail(fmt::format("names vertex {} in guide {}, but has {} vertices up to there", number,
                        guides_.lines.size(), points_.size()));
     }
     guides_.lines.back().push_back(points_[static_cast<std::size_t>(number - 1)]);
   }
   void end_guide() {
     if (guides_.lines.back().size() < 2) {
-      fail(fmt::format("has fewer than two points in line {}", guides_.lines.size()));
+      fail(fmt::format("has fewer than two points in guide {}", guides_.lines.size()));
     }
   }
 
@@ -113,8 +113,11 @@ GuideLines parse_ply(Source source, const PlyHeader& header, GuideBuilder builde
       if (!has_edges) continue;
       builder.begin_guide();
       for (const double index : {values[0], values[1]}) {
-        const bool is_index = index >= 0 && index < static_cast<double>(builder.point_count());
-        builder.extend_guide(is_index ? static_cast<std::int64_t>(index) + 1 : 0);
+        if (!(index >= 0 && index < static_cast<double>(builder.point_count()))) {
+          builder.fail(fmt::format("names vertex {:g} in edge {}, counted from 0, but has {}", index,
+                                   row, builder.point_count()));
+        }
+        builder.extend_guide(static_cast<std::int64_t>(index) + 1);
       }
     }
   }

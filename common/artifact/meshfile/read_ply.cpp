@@ -95,6 +95,15 @@ void add_strips(const std::vector<Index>& strip, PolyMesh& mesh) {
   check_countable(mesh.corners.size(), "face corners");
 }
 
+/// A label is a number of 32 bits, with a sign or without: those without from 2^31 on are told
+/// apart as what they are with one.
+Index label_of(double value) {
+  if (value > INT32_MAX && value <= UINT32_MAX) {
+    return static_cast<Index>(static_cast<std::uint32_t>(value));
+  }
+  return static_cast<Index>(std::clamp<double>(value, INT32_MIN, INT32_MAX));
+}
+
 /// Reads the rows of one element from a source of values; the source tells where data ends.
 template <typename Source>
 class ElementReader {
@@ -192,7 +201,7 @@ class ElementReader {
     }
     for (std::size_t i = 0; i < label_.size(); ++i) {
       if (targets_.labels[i] != p) continue;
-      label_[i] = static_cast<Index>(std::clamp<double>(finite, INT32_MIN, INT32_MAX));
+      label_[i] = label_of(finite);
     }
     return true;
   }

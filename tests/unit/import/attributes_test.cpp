@@ -107,6 +107,24 @@ TEST(Attributes, OfAPlyFile) {
   EXPECT_EQ(corners.attributes.texture, (std::vector<TexturePoint>{{0, 0.5}, {1, 0.5}, {1, 1}}));
 }
 
+/// Hashes, as segmentations have, of which those from 2^31 on were all the same.
+TEST(Attributes, LabelsWithoutASignStayApart) {
+  const auto label = [](const std::string& type, const std::string& value) {
+    return parsed(
+               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+               "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+               "property " +
+                   type + " label\nend_header\n0 0 0\n1 0 0\n1 1 0\n3 0 1 2 " + value + "\n",
+               ".ply")
+        .attributes.labels[0]
+        .of_face[0];
+  };
+  EXPECT_EQ(label("uint", "2147483647"), 2147483647);
+  EXPECT_EQ(label("uint", "2147483648"), -2147483647 - 1);
+  EXPECT_NE(label("uint", "3000000000"), label("uint", "4000000000"));
+  EXPECT_EQ(label("uint", "4294967295"), -1);
+}
+
 /// A mesh with everything.
 PolyMesh decorated() {
   PolyMesh mesh = support::seamed_tube(8, 3);

@@ -250,7 +250,7 @@ TEST(Guides, FarFromTheSurfaceAreRefused) {
   EXPECT_EQ(lay_guides(sphere, guides).line_count(), 1);
   guides.lines.push_back({Vec3(1, 0, 0), Vec3(0, 1, 0)});  // its middle is deep inside
   const std::string message = complaint([&] { lay_guides(sphere, guides); });
-  EXPECT_NE(message.find("'guides.obj', line 2"), std::string::npos) << message;
+  EXPECT_NE(message.find("'guides.obj', guide 2"), std::string::npos) << message;
   EXPECT_NE(message.find("more than 2 %"), std::string::npos) << message;
   guides.lines = {{Vec3(1, 0, 0), Vec3(1, 0, 0)}};
   EXPECT_NE(complaint([&] { lay_guides(sphere, guides); }).find("no guide line"),
@@ -293,12 +293,12 @@ TEST(GuideFiles, WhatMakesNoSenseIsRefusedWithItsPlace) {
       {"nothing of use", "holds no guide line"},
       {vertices, "holds no guide line"},
       {vertices + "f 1 2 2\n", "holds no guide line"},
-      {vertices + "l\n", "fewer than two points in line 1"},
-      {vertices + "l 1 2\nl 2\n", "fewer than two points in line 2"},
-      {vertices + "l 1 3\n", "names vertex 3 in line 1"},
-      {vertices + "l 1 -3\n", "in line 1"},
-      {vertices + "l 1 0\n", "names vertex 0 in line 1"},
-      {vertices + "l 1 x\n", "names vertex 0 in line 1"},
+      {vertices + "l\n", "fewer than two points in guide 1"},
+      {vertices + "l 1 2\nl 2\n", "fewer than two points in guide 2"},
+      {vertices + "l 1 3\n", "names vertex 3 in guide 1"},
+      {vertices + "l 1 -3\n", "in guide 1"},
+      {vertices + "l 1 0\n", "names vertex 0 in guide 1"},
+      {vertices + "l 1 x\n", "names vertex 0 in guide 1"},
       {vertices + "v 0 nan 0\nl 1 2\n", "at vertex 3"},
       {vertices + "v 0 inf 0\nl 1 2\n", "at vertex 3"},
       {vertices + "v 0 0\nl 1 2\n", "at vertex 3"},
@@ -306,8 +306,8 @@ TEST(GuideFiles, WhatMakesNoSenseIsRefusedWithItsPlace) {
       {ply, "ends before vertex 1 of 2"},
       {ply + "0 0 0\n0 nan 0\n0 1\n", "at vertex 2"},
       {ply + "0 0 0\n0 0 1\n", "ends before edge 1 of 1"},
-      {ply + "0 0 0\n0 0 1\n0 2\n", "in line 1"},
-      {ply + "0 0 0\n0 0 1\n0 -1\n", "in line 1"},
+      {ply + "0 0 0\n0 0 1\n0 2\n", "vertex 2 in edge 0"},
+      {ply + "0 0 0\n0 0 1\n0 -1\n", "vertex -1 in edge 0"},
       {"ply\nformat ascii 1.0\nelement edge 1\nproperty int vertex1\nend_header\n0\n",
        "no property 'vertex2' of 'edge'"},
   };
