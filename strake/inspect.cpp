@@ -82,11 +82,21 @@ int print_info(const std::string& path) {
   return 0;
 }
 
-/// Reads all of an artifact that is no surface; reading is the check.
+/// \throw InputError  where it is not the mesh that others name as theirs
+void check_mesh(const std::string& path) {
+  const Value value = load_value(PortKind::mesh, path);
+  const auto& mesh = std::get<TriMesh>(value);
+  if (content_id(mesh) == mesh.id) return;
+  throw InputError("'" + path +
+                   "' has another content than its mesh_id says: it was changed after it was made; "
+                   "make it again");
+}
+
+/// Reads all of an artifact that is no surface; reading is the check, of a mesh but for its id.
 void check_artifact(ArtifactKind kind, const std::string& path) {
   switch (kind) {
     case ArtifactKind::mesh:
-      load_value(PortKind::mesh, path);
+      check_mesh(path);
       break;
     case ArtifactKind::tensor:
       read_tensor_field(path);

@@ -126,6 +126,16 @@ TEST_F(Errors, CheckTellsRotFromTruncation) {
   must("strake check rotten.hdf");
 }
 
+/// What another program wrote into it has a checksum of its own, but not the content that others
+/// name as theirs.
+TEST_F(Errors, CheckTellsThatAMeshWasChanged) {
+  must("strake check mesh.hdf");
+  TriMesh mesh = read_tri_mesh(file("mesh.hdf"));
+  mesh.positions[0].x() += 0.01 * mesh.diagonal;
+  write_artifact(file("changed.hdf"), mesh, {});
+  must_fail(kBadInput, "strake check changed.hdf", "changed after it was made");
+}
+
 TEST_F(Errors, CheckTellsStaleFromForeign) {
   run_chain("torus.ply", "");
   must("strake check torus.ply mesh.hdf tensor.hdf field.hdf lines.hdf");
