@@ -114,8 +114,8 @@ GuideLines parse_ply(Source source, const PlyHeader& header, GuideBuilder builde
       builder.begin_guide();
       for (const double index : {values[0], values[1]}) {
         if (!(index >= 0 && index < static_cast<double>(builder.point_count()))) {
-          builder.fail(fmt::format("names vertex {:g} in edge {}, counted from 0, but has {}", index,
-                                   row, builder.point_count()));
+          builder.fail(fmt::format("names vertex {:g} in edge {}, counted from 0, but has {}",
+                                   index, row, builder.point_count()));
         }
         builder.extend_guide(static_cast<std::int64_t>(index) + 1);
       }

@@ -130,6 +130,8 @@ std::vector<std::string> ReadReport::warnings() const {
   add(non_finite_vertices, "vertices without finite coordinates");
   add(non_finite_faces, "faces skipped that use vertices without finite coordinates");
   add(skipped_lines, "lines skipped that make no sense");
+  add(untextured_corners,
+      "corners of faces without texture coordinates, where others have some; they get (0, 0)");
   return result;
 }
 
@@ -142,6 +144,7 @@ void ReadReport::add_to(Report& report) const {
   report.set("file.non_finite_vertices", non_finite_vertices);
   report.set("file.non_finite_faces", non_finite_faces);
   report.set("file.skipped_lines", skipped_lines);
+  report.set("file.untextured_corners", untextured_corners);
   report.set("file.welded_vertices", welded_vertices);
   for (std::string& warning : warnings()) report.warn(std::move(warning));
 }

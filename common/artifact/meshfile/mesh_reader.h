@@ -23,6 +23,7 @@ struct ReadReport {
   std::int64_t missing_vertices = 0;     ///< announced but not in the file
   std::int64_t missing_faces = 0;        ///< announced but not in the file, or cut off
   std::int64_t skipped_lines = 0;        ///< text that is not understood
+  std::int64_t untextured_corners = 0;   ///< at (0, 0), where others have texture coordinates
   std::int64_t welded_vertices = 0;  ///< STL: corners merged because their coordinates are equal
 
   /// One sentence for each thing that is wrong with the file; empty for a sound one.

@@ -77,7 +77,7 @@ class ObjReader {
     }
   }
 
-  PolyMesh finish() {
+  PolyMesh finish(ReadReport& report) {
     check_countable(mesh_.positions.size(), "vertices");
     if (mesh_.positions.empty()) throw InputError("holds no vertices; it does not look like OBJ");
     if (!attributes().colour.empty()) finish_colours();
@@ -87,6 +87,7 @@ class ObjReader {
       for (const Index t : corner_texture_) {
         const bool is_there = t != kNone && static_cast<std::size_t>(t) < texture_points_.size();
         attributes().texture.push_back(is_there ? texture_points_[t] : TexturePoint{});
+        if (!is_there) ++report.untextured_corners;
       }
     }
     if (layers_.back().is_used) attributes().material_files = std::move(material_files_);
@@ -226,7 +227,7 @@ PolyMesh read_obj(std::string_view bytes, ReadReport& report) {
       ++report.skipped_lines;
     }
   }
-  return reader.finish();
+  return reader.finish(report);
 }
 
 }  // namespace strake::meshfile

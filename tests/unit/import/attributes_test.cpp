@@ -27,12 +27,13 @@ PolyMesh parsed(const std::string& text, const std::string& extension) {
 }
 
 TEST(Attributes, OfAnObjFile) {
-  const PolyMesh mesh = parsed(
+  ReadReport report;  // one corner has no texture coordinates
+  const PolyMesh mesh = parse_mesh(
       "mtllib my parts.mtl\nmtllib b.mtl c.mtl\nmtllib my parts.mtl\n"
       "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 1\nv 0 1 0\n"
       "vt 0 0\nvt 1 0\nvt 1 1\nvt 0.5 0.25\n"
       "g first\nusemtl red paint\nf 1/1 2/2/9 3/-2\ng second\nf 1//4 3/3 4/4\n",
-      ".obj");
+      ".obj", report);
   const std::vector<Colour> colours = {{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}, {1, 1, 1, 1}};
   EXPECT_EQ(mesh.attributes.colour, colours);
   const std::vector<TexturePoint> texture = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0.5, 0.25}};
@@ -105,6 +106,18 @@ TEST(Attributes, OfAPlyFile) {
                  "1 1 0 1 1 1\n3 0 1 2 6 0 0.5 1 0.5 1 1\n",
              ".ply");
   EXPECT_EQ(corners.attributes.texture, (std::vector<TexturePoint>{{0, 0.5}, {1, 0.5}, {1, 1}}));
+}
+
+TEST(Attributes, CornersWithoutTextureAreTold) {
+  const std::string vertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0.5 1\n";
+  ReadReport report;
+  const PolyMesh mesh = parse_mesh(vertices + "f 1/1 2/1 3/1\nf 1 3 4/1\n", ".obj", report);
+  EXPECT_EQ(report.untextured_corners, 2);
+  EXPECT_EQ(report.warnings().size(), 1U);
+  EXPECT_EQ(mesh.attributes.texture[3], (TexturePoint{0, 0}));
+  (void)parse_mesh(vertices + "f 1 2 3\nf 1 3 4\n", ".obj", report);  // where none has any
+  EXPECT_EQ(report.untextured_corners, 0);
+  EXPECT_TRUE(report.warnings().empty());
 }
 
 /// Hashes, as segmentations have, of which those from 2^31 on were all the same.
