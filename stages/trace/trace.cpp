@@ -131,7 +131,7 @@ class WantedSpacing {
       if (!options.max_spacing) limits_.largest = kLargestCell * std::sqrt(area / *count);
       Spacing spacing;
       std::tie(tolerance_of_family_, spacing) = model_.for_count(*count, limits_);
-      // No tolerance makes up for a density that is high nearly everywhere it is not low.
+      // They are capped before a density divides them, so no tolerance may give so few.
       const double excess = predicted_vertices(model_.areas(), spacing) / *count;
       if (excess > kFarTooMany) own_scale_ = std::sqrt(excess);
     }
