@@ -16,11 +16,11 @@
 namespace strake {
 namespace {
 
-struct Traits : OpenMesh::DefaultTraits {
+struct ThinTraits : OpenMesh::DefaultTraits {
   using Point = OpenMesh::Vec3d;
   using Normal = OpenMesh::Vec3d;
 };
-using Patch = OpenMesh::TriMesh_ArrayKernelT<Traits>;
+using Patch = OpenMesh::TriMesh_ArrayKernelT<ThinTraits>;
 
 /// Largest ratio of the longest side to the height over it that a collapse may lead to. Of a
 /// regular grid of halved squares each leads to 5.
