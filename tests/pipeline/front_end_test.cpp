@@ -286,7 +286,7 @@ TEST_F(FrontEnd, FollowsGuides) {
       {"v 1.4 0 0\nv 1.34 0.2 0.2\n", "no guide line"},
       {"v 1.4 0 0\nv nan 0.2 0.2\nl 1 2\n", "no finite number, at vertex 2"},
       {"v 1.4 0 0\nv 0 0 0\nl 1 2\n", "from the surface, more than 2 %"},
-      {"v 1.4 0 0\nl 1 2\n", "names vertex 2 in line 1"}};
+      {"v 1.4 0 0\nl 1 2\n", "names vertex 2 in guide 1"}};
   for (const auto& [text, message] : files) {
     put("guides.obj", text);
     must_fail(3, "strake remesh torus.ply -o bad.obj --guides guides.obj", message);

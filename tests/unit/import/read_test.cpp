@@ -37,10 +37,13 @@ TEST(ReadObj, KeepsDoublesExactly) {
 }
 
 TEST(ReadObj, UnderstandsEveryKindOfCorner) {
-  const PolyMesh mesh = parse(
+  ReadReport report;
+  const PolyMesh mesh = parse_mesh(
       "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nvn 0 0 1\n"
       "f 1 2 3\nf 1/1 2/1 3/1\nf 1//1 2//1 3//1\nf 1/1/1 2/1/1 3/1/1\nf 1// 2// 3//\n"
-      "f -4 -3 -2 -1\n");
+      "f -4 -3 -2 -1\n",
+      ".obj", report);
+  EXPECT_EQ(report.untextured_corners, 13);  // of 19
   ASSERT_EQ(mesh.face_count(), 6);
   for (Index f = 0; f < 5; ++f) EXPECT_EQ(face(mesh, f), Corners({0, 1, 2})) << f;
   EXPECT_EQ(face(mesh, 5), Corners({0, 1, 2, 3}));
