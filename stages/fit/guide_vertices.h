@@ -9,8 +9,8 @@
 
 namespace strake::fitting {
 
-/// The ways from the feet of vertices to the guide lines that they are beside: lines of a result
-/// that run along a guide are hardly off it, and cross it where they do not.
+/// The ways from the feet of vertices to the guide lines that they are beside: those of lines that
+/// were traced along a guide, and of lines that cross it there.
 /// \param guides  on the mesh
 /// \return [V of the result] nothing: it is beside none
 std::vector<std::optional<Vec3>> ways_to_guides(const TriMesh& mesh, const QuadMesh& quads,

@@ -19,9 +19,8 @@ namespace strake::fitting {
 /// A vertex on a feature or boundary line stays on it: it slides along the line's edges, up to the
 /// corner where the line ends, or once around. One that comes off a ragged boundary slides along
 /// the course of that. Corners do not move at all, nor does a component that is the input's
-/// triangles. One beside a guide line of the field
-/// is put onto it, and moves along the surface's normal only. All others
-/// move freely, and their foot on the surface follows, on its component.
+/// triangles. One beside a guide line of the field is put onto it, and moves along the surface's
+/// normal only. All others move freely, and their foot on the surface follows, on its component.
 class VertexPlaces {
  public:
   /// \param mesh, surface  the input and its faces, in the same order

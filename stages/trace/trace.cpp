@@ -7,7 +7,6 @@
 #include <optional>
 #include <random>
 #include <string>
-#include <tuple>
 #include <utility>
 
 #include "common/core/error.h"
@@ -129,8 +128,8 @@ class WantedSpacing {
       if (options.max_spacing) require_room(area / std::pow(limits_.largest, 2), *count, options);
       // Relative to the mean cell: flats may be coarse, but not out of proportion.
       if (!options.max_spacing) limits_.largest = kLargestCell * std::sqrt(area / *count);
-      Spacing spacing;
-      std::tie(tolerance_of_family_, spacing) = model_.for_count(*count, limits_);
+      const auto [tolerance_of_count, spacing] = model_.for_count(*count, limits_);
+      tolerance_of_family_ = tolerance_of_count;
       // They are capped before a density divides them, so no tolerance may give so few.
       const double excess = predicted_vertices(model_.areas(), spacing) / *count;
       if (excess > kFarTooMany) own_scale_ = std::sqrt(excess);

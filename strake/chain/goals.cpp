@@ -391,11 +391,6 @@ bool may_be_parted(const Attempt& attempt) {
   return !crossing.input_crosses();
 }
 
-/// Decimation knows nothing of what a user says of directions and of lines.
-bool needs_lines(const Session& session, const GoalStages& stages, bool lines_only) {
-  return lines_only || only_quads(stages) || session.has("density") || session.has("guides");
-}
-
 }  // namespace
 
 std::string meet_count(Session& session, const GoalStages& stages, Counted counted,

@@ -135,6 +135,10 @@ Session decimated(Session session, const GoalStages& stages, const Goal& goal) {
 
 }  // namespace
 
+bool needs_lines(const Session& session, const GoalStages& stages, bool lines_only) {
+  return lines_only || only_quads(stages) || session.has("density") || session.has("guides");
+}
+
 const DecimatedRival::Made* DecimatedRival::made(const Session& session, CrossingPlaces& crossing) {
   if (!made_ && why_not_.empty()) {
     try {

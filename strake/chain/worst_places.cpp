@@ -1,7 +1,6 @@
 #include "strake/chain/worst_places.h"
 
 #include <algorithm>
-#include <string>
 
 #include "common/core/number_text.h"
 #include "common/core/wanted_count.h"
@@ -21,16 +20,16 @@ constexpr double kOfCountTolerance = 0.8;
 
 void improve_worst_places(Session& session, const GoalStages& stages,
                           const std::optional<LineAim>& aim) {
-  const std::string port = result_port(session);
+  const char* port = result_port(session);
   if (!goes_by_errors(session, stages) ||
       session.get<TriMesh>("mesh").face_count() > kMostInputFaces ||
-      count_of(session, port.c_str(), Counted::faces) > kMostFaces) {
+      count_of(session, port, Counted::faces) > kMostFaces) {
     return;
   }
   const Option& share = stages.worst.option("worst-share");
   double room = share.number().value();
   if (aim) {
-    const auto given = static_cast<double>(count_of(session, port.c_str(), aim->counted));
+    const auto given = static_cast<double>(count_of(session, port, aim->counted));
     const double most =
         (1 + kOfCountTolerance * kCountTolerance) * static_cast<double>(aim->wanted);
     room = std::min(room, most / given - 1);
