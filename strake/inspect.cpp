@@ -1,8 +1,11 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/App.hpp>
+#include <Eigen/Geometry>
 #include <cstdio>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -67,6 +70,27 @@ void print_orientation(const PolyMesh& mesh, const PolyTopology& topology) {
   fmt::print("\n");
 }
 
+std::string name_of(const FaceLabels& labels) {
+  const std::set<Index> values(labels.of_face.begin(), labels.of_face.end());
+  return fmt::format("{} ({})", labels.name, values.size());
+}
+
+void print_size_and_attributes(const PolyMesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& p : mesh.positions) box.extend(p);
+  if (!box.isEmpty()) {
+    const Vec3 size = box.sizes();
+    fmt::print("  size       {:.6g} x {:.6g} x {:.6g}\n", size.x(), size.y(), size.z());
+  }
+  std::vector<std::string> kinds;
+  if (!mesh.attributes.colour.empty()) kinds.emplace_back("vertex colours");
+  if (!mesh.attributes.texture.empty()) kinds.emplace_back("texture coordinates");
+  for (const FaceLabels& labels : mesh.attributes.labels) {
+    kinds.push_back("labels " + name_of(labels));
+  }
+  if (!kinds.empty()) fmt::print("  carries    {}\n", fmt::join(kinds, ", "));
+}
+
 int print_info(const std::string& path) {
   if (is_artifact(path)) {
     print_artifact(path);
@@ -79,6 +103,7 @@ int print_info(const std::string& path) {
   const PolyTopology topology = analyse(mesh);
   print_topology(topology);
   print_orientation(mesh, topology);
+  print_size_and_attributes(mesh);
   return 0;
 }
 

@@ -308,20 +308,33 @@ void find_facets(TriMesh& mesh, double height, FeatureCounts& counts) {
   counts.facet_edges = static_cast<Index>(edges.size());
 }
 
-void flag_attribute_borders(TriMesh& mesh, const FeatureRules& rules, FeatureCounts& counts) {
+/// Makes borders of attributes features where the rules want them, and then those listed.
+void flag_attribute_borders(const FeatureRules& rules, const PolyMesh& input,
+                            const EdgeList* listed, TriMesh& mesh, FeatureCounts& counts) {
+  std::vector<Index> borders;
+  std::vector<Index> seams;
   const MirrorLines mirrors(mesh);
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
     if (mesh.twin[h] == kNone || h > mesh.twin[h]) continue;
-    const bool is_between_labels = is_label_border(mesh, h);
-    const bool is_border = rules.labels && is_between_labels;
-    const bool is_edge_of_texture = is_seam(mesh, h) || mirrors.contains(h);
-    if (is_border || (rules.seams && is_edge_of_texture)) {
-      ++(is_border ? counts.label_edges : counts.seam_edges);
-      set_feature(mesh, h, true);
-    } else if (is_between_labels && mesh.is_feature[h] == 0) {
-      ++counts.open_label_edges;
-    }
+    if (is_label_border(mesh, h)) borders.push_back(h);
+    if (is_seam(mesh, h) || mirrors.contains(h)) seams.push_back(h);
   }
+  const auto flag = [&](const std::vector<Index>& edges) {
+    for (const Index h : edges) set_feature(mesh, h, true);
+    return static_cast<Index>(edges.size());
+  };
+  if (rules.labels) counts.label_edges = flag(borders);
+  if (rules.seams) {
+    if (rules.labels) std::erase_if(seams, [&](Index h) { return is_label_border(mesh, h); });
+    counts.seam_edges = flag(seams);
+  }
+  if (listed != nullptr) counts.listed_edges = flag_listed_edges(*listed, input, mesh);
+  const auto open = [&](const std::vector<Index>& edges) {
+    return static_cast<Index>(
+        std::ranges::count_if(edges, [&](Index h) { return mesh.is_feature[h] == 0; }));
+  };
+  counts.open_label_edges = open(borders);
+  counts.open_seam_edges = open(seams);
 }
 
 }  // namespace
@@ -333,8 +346,7 @@ FeatureCounts find_features(TriMesh& mesh, const FeatureRules& rules, const Poly
   if (rules.angle_deg < 180) find_creases(mesh, rules.angle_deg, rules.all_creases, counts);
   if (std::isfinite(rules.height)) find_ridges(mesh, rules.height, counts);
   if (std::isfinite(rules.facet_height)) find_facets(mesh, rules.facet_height, counts);
-  flag_attribute_borders(mesh, rules, counts);
-  if (listed != nullptr) counts.listed_edges = flag_listed_edges(*listed, input, mesh);
+  flag_attribute_borders(rules, input, listed, mesh, counts);
   counts.edges =
       static_cast<Index>(std::count(mesh.is_feature.begin(), mesh.is_feature.end(), 1) / 2);
   counts.corners = find_corners(mesh);

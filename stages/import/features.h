@@ -31,6 +31,7 @@ struct FeatureCounts {
   Index facet_edges = 0;       ///< of flat polygons, as `find_facet_edges` states
   Index label_edges = 0;       ///< between faces of different labels
   Index open_label_edges = 0;  ///< likewise, but no features, as the rules do not want them
+  Index open_seam_edges = 0;   ///< the same of seams
   Index seam_edges = 0;  ///< where the sides differ in texture coordinates, or these turn back, and
                          ///< not in labels
   Index listed_edges = 0;  ///< of a list, the boundary excluded

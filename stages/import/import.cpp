@@ -213,6 +213,7 @@ void report_features(const FeatureCounts& counts, Report& report) {
   report.set("features.label_edges", counts.label_edges);
   report.set("features.open_label_edges", counts.open_label_edges);
   report.set("features.seam_edges", counts.seam_edges);
+  report.set("features.open_seam_edges", counts.open_seam_edges);
   report.set("features.listed_edges", counts.listed_edges);
   report.set("features.edges", counts.edges);
   report.set("features.corners", counts.corners);
@@ -331,6 +332,15 @@ void warn_of_open_labels(const FeatureCounts& counts, Report& report) {
                   counts.open_label_edges));
 }
 
+/// A cell across a seam takes its corners' coordinates from both charts.
+void warn_of_open_seams(const FeatureCounts& counts, Report& report) {
+  if (counts.open_seam_edges == 0) return;
+  report.warn(fmt::format(
+      "{} edges are seams of texture coordinates and no features, so the texture will be wrong in "
+      "the faces across them; --attribute-features seams keeps them as lines",
+      counts.open_seam_edges));
+}
+
 void report_attributes(const Attributes& attributes, Report& report) {
   report.set("attributes.colours", !attributes.colour.empty());
   report.set("attributes.texture_coordinates", !attributes.texture.empty());
@@ -404,7 +414,10 @@ FeatureCounts mark_features(TriMesh& mesh, const ImportOptions& options, const P
   if (options.no_attributes) mesh.attributes = {};
   warn_of_dropped_creases(mesh.diagonal, features, report);
   warn_of_many_seams(mesh, features, report);
-  if (!options.no_attributes) warn_of_open_labels(features, report);
+  if (!options.no_attributes) {
+    warn_of_open_labels(features, report);
+    warn_of_open_seams(features, report);
+  }
   report_noise(mesh, report);
   warn_of_steps(mesh, features, report);
   return features;

@@ -172,10 +172,28 @@ TEST_F(AttributeFiles, ListsOfEdgesThatMakeNoSenseAreRefused) {
             "line 2: vertex 0 lies nowhere");
 }
 
+TEST_F(AttributeFiles, AreToldByInfo) {
+  put("box.obj",
+      "v 0 0 0 1 0 0\nv 2 0 0 1 0 0\nv 2 3 0 1 0 0\nv 0 3 .5 1 0 0\nvt 0 0\n"
+      "usemtl steel\nf 1/1 2/1 3/1\nusemtl brass\nf 1/1 3/1 4/1\n");
+  const std::string told = must("strake info box.obj");
+  EXPECT_NE(told.find("size       2 x 3 x 0.5\n"), std::string::npos);
+  EXPECT_NE(told.find("carries    vertex colours, texture coordinates, labels usemtl (2)\n"),
+            std::string::npos);
+  put("plain.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(must("strake info plain.obj").find("carries"), std::string::npos);
+}
+
 TEST_F(AttributeFiles, CanBeLeftOut) {
+  const std::string wrong = "the texture will be wrong in the faces across them";
+  const auto warnings = [&](const std::string& options) {
+    return run("strake-import tube.obj -o " + options).err;
+  };
   write_mesh(file("tube.obj"), support::seamed_tube(40, 10));
-  must("strake-import tube.obj -o mesh.hdf -q --no-attributes --attribute-features none");
-  must("strake-import tube.obj -o carried.hdf -q --attribute-features none");
+  EXPECT_EQ(warnings("seamed.hdf").find(wrong), std::string::npos);
+  EXPECT_EQ(warnings("mesh.hdf --no-attributes --attribute-features none").find(wrong),
+            std::string::npos);
+  EXPECT_NE(warnings("carried.hdf --attribute-features none").find(wrong), std::string::npos);
   PolyMesh plain = support::seamed_tube(40, 10);
   plain.attributes = {};
   write_mesh(file("plain.obj"), plain);
