@@ -3,8 +3,11 @@
 
 #include <CLI/App.hpp>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstdio>
+#include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -107,54 +110,68 @@ int print_info(const std::string& path) {
   return 0;
 }
 
-/// \throw InputError  where it is not the mesh that others name as theirs
-void check_mesh(const std::string& path) {
-  const Value value = load_value(PortKind::mesh, path);
-  const auto& mesh = std::get<TriMesh>(value);
-  if (content_id(mesh) == mesh.id) return;
-  throw InputError("'" + path +
-                   "' has another content than its mesh_id says: it was changed after it was made; "
-                   "make it again");
-}
-
-/// Reads all of an artifact that is no surface; reading is the check, of a mesh but for its id.
-void check_artifact(ArtifactKind kind, const std::string& path) {
+PortKind port_kind(ArtifactKind kind) {
   switch (kind) {
     case ArtifactKind::mesh:
-      check_mesh(path);
-      break;
+      return PortKind::mesh;
     case ArtifactKind::tensor:
-      read_tensor_field(path);
-      break;
+      return PortKind::tensor;
     case ArtifactKind::field:
-      read_principal_field(path);
-      break;
+      return PortKind::field;
     case ArtifactKind::lines:
-      read_line_set(path);
-      break;
+      return PortKind::lines;
     case ArtifactKind::quads:
-      read_quad_mesh(path);
-      break;
+      return PortKind::quads;
     case ArtifactKind::tensor_part:
-      read_tensor_part(path);
-      break;
+      return PortKind::tensor_part;
     case ArtifactKind::size:
-      read_size_field(path);
-      break;
+      return PortKind::size;
+  }
+  throw Error(ExitCode::internal, "an artifact of no kind");
+}
+
+bool is_mesh_artifact(const std::string& path) {
+  try {
+    return is_artifact(path) && read_artifact_info(path).kind == ArtifactKind::mesh;
+  } catch (const InputError&) {
+    return false;  // told of when it is checked
   }
 }
 
-void check_file(const std::string& path, std::int64_t max_sides) {
+/// Reads all of an artifact as a stage would.
+/// \param meshes  paths by mesh id, undamaged: what fields hold can be told with their mesh only
+/// \throw InputError  where it is damaged, or not what others name as theirs
+void check_artifact(const ArtifactInfo& info, const std::string& path,
+                    const std::map<std::string, std::string>& meshes) {
+  const Value value = load_value(port_kind(info.kind), path);
+  const auto changed = [&](const std::string& what) {
+    throw InputError("'" + path + "' has another content than its " + what +
+                     " says: it was changed after it was made; make it again");
+  };
+  const auto* mesh = std::get_if<TriMesh>(&value);
+  if (mesh != nullptr && content_id(*mesh) != mesh->id) changed("mesh_id");
+  std::optional<TriMesh> own;
+  if (const auto found = meshes.find(info.mesh_id); mesh == nullptr && found != meshes.end()) {
+    own = read_tri_mesh(found->second);
+  }
+  const std::string content = content_of(value, own ? &*own : nullptr);
+  if (!content.empty() && content != info.content) changed("attribute 'content'");
+}
+
+/// \param meshes  undamaged ones before it, paths by mesh id; another one is added
+void check_file(const std::string& path, std::int64_t max_sides,
+                std::map<std::string, std::string>& meshes) {
   if (path.ends_with(".yaml") || path.ends_with(".yml")) {
     throw UsageError("'" + path + "' is a pipeline file; 'strake status --verify --file " + path +
                      "' checks what the store holds of it");
   }
   if (is_artifact(path)) {
-    const ArtifactKind kind = read_artifact_info(path).kind;
-    check_artifact(kind, path);
+    const ArtifactInfo info = read_artifact_info(path);
+    check_artifact(info, path, meshes);
     check_picture(path);
-    if (kind != ArtifactKind::quads) {
-      fmt::print("{}: sound {} artifact\n", path, kind_name(kind));
+    if (info.kind == ArtifactKind::mesh) meshes.emplace(info.mesh_id, path);
+    if (info.kind != ArtifactKind::quads) {
+      fmt::print("{}: sound {} artifact\n", path, kind_name(info.kind));
       return;
     }
   }
@@ -173,13 +190,15 @@ void check_file(const std::string& path, std::int64_t max_sides) {
 
 /// Checks all files, so that one that is damaged does not hide others, and then whether those that
 /// are sound belong together.
-int check_files(const std::vector<std::string>& paths, std::int64_t max_sides) {
+int check_files(std::vector<std::string> paths, std::int64_t max_sides) {
+  std::ranges::stable_partition(paths, is_mesh_artifact);
   std::vector<std::string> sound;
+  std::map<std::string, std::string> meshes;
   std::string complaints;
   ExitCode code = ExitCode::precondition;
   for (const std::string& path : paths) {
     try {
-      check_file(path, max_sides);
+      check_file(path, max_sides, meshes);
       sound.push_back(path);
     } catch (const Interrupted&) {
       throw;

@@ -53,7 +53,8 @@ bool is_made_from(const GivenFile& other, const GivenFile& file) {
 /// The file given for an input, where none is the one that was read.
 const GivenFile* other_input(const GivenFile& file, const Provenance::InputRecord& input,
                              const std::vector<GivenFile>& all) {
-  const bool is_model = file.info->provenance.stage == "import" && input.role == "input";
+  const std::string& maker = file.info->provenance.stage;
+  const bool is_model = (maker == "import" || maker == "remesh") && input.role == "input";
   const GivenFile* found = nullptr;
   for (const GivenFile& other : all) {
     if (other.content == input.digest) return nullptr;
@@ -74,7 +75,9 @@ std::vector<std::string> broken_relations(const std::vector<std::string>& files)
   std::vector<std::string> broken;
   for (const GivenFile& file : all) {
     if (!file.info) continue;
-    const std::string again = "run strake-" + file.info->provenance.stage + " again";
+    const std::string& maker = file.info->provenance.stage;
+    const std::string again =
+        std::string("run strake") + (maker == "remesh" ? " " : "-") + maker + " again";
     if (const GivenFile* mesh = strange_mesh(file, all)) {
       broken.push_back(fmt::format(
           "{}: foreign: it belongs to another mesh than '{}'; {} on files of this one, or take "

@@ -48,15 +48,16 @@ struct RemeshCommand {
   ShellOptions shell;
 
   Chain chain;
-  Provenance asked;  ///< without inputs
+  Provenance asked;  ///< with the inputs that have been read
 
   void add_to(CLI::App& app);
   void check() const;
   [[nodiscard]] std::vector<SideFile> side_files() const;
-  /// How one would say that the result was made in one go. Inputs are those of now, options those
-  /// that were asked for: the chain changes them on its way.
-  [[nodiscard]] Provenance provenance() const;
+  /// How one would say that the result was made in one go, but for its inputs. The chain changes
+  /// options on its way.
   [[nodiscard]] Provenance without_inputs();
+  /// Reads a file for a port, and notes what it holds: it may be another one before the run ends.
+  void provide(Session& session, const std::string& port, PortKind kind, const std::string& path);
   void run();
   void make_output();
 };
@@ -144,20 +145,16 @@ Provenance RemeshCommand::without_inputs() {
   return whole;
 }
 
-Provenance RemeshCommand::provenance() const {
-  Provenance whole = asked;
-  whole.inputs = {{"input", content_digest(input)}};
-  for (const SideFile& file : side_files()) {
-    whole.inputs.push_back({file.port, content_digest(file.path)});
-  }
-  return whole;
+void RemeshCommand::provide(Session& session, const std::string& port, PortKind kind,
+                            const std::string& path) {
+  asked.inputs.push_back({port, content_digest(path)});
+  session.provide(port, load_value(kind, path), path, asked.inputs.back().digest);
 }
 
 void RemeshCommand::run() {
   check();
   asked = without_inputs();
-  Repro repro{
-      shell.repro, "strake remesh", {input}, [this] { return provenance(); }, shell.log_format()};
+  Repro repro{shell.repro, "strake remesh", {input}, [this] { return asked; }, shell.log_format()};
   for (const SideFile& file : side_files()) repro.inputs.emplace_back(file.path);
   with_repro(repro, [this] { make_output(); });
 }
@@ -167,11 +164,8 @@ void RemeshCommand::make_output() {
   console.begin("strake");
   console.report("reading " + input, 0);
   Session session(console);
-  session.provide("input", load_value(PortKind::polygons, input), input, content_digest(input));
-  for (const SideFile& file : side_files()) {
-    session.provide(file.port, load_value(file.kind, file.path), file.path,
-                    content_digest(file.path));
-  }
+  provide(session, "input", PortKind::polygons, input);
+  for (const SideFile& file : side_files()) provide(session, file.port, file.kind, file.path);
   if (!keep.empty()) {
     session.keep_with(
         KeptFolder(keep, chain.stages()).keeper(),
@@ -180,7 +174,7 @@ void RemeshCommand::make_output() {
   const std::string port = chain.run(session);
   const Report* measures = no_evaluate ? nullptr : &chain.measure(session, port);
   const QuadMesh& quads = session.get<QuadMesh>(port);
-  save_result(output, quads, input, provenance());
+  save_result(output, quads, input, asked);
   if (!shell.report_path.empty()) write_text(shell.report_path, records_json(session.records()));
   if (shell.verbose) {
     for (const StageRecord& record : session.records()) {

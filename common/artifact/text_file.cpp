@@ -1,7 +1,7 @@
 #include "common/artifact/text_file.h"
 
+#include <array>
 #include <fstream>
-#include <sstream>
 
 #include "common/core/error.h"
 
@@ -18,10 +18,17 @@ void write_text(const std::filesystem::path& path, const std::string& text, Flus
 
 std::string read_text(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream) throw InputError(path.string() + ": cannot be read; check name and permissions");
-  return text.str();
+  const auto fail = [&] {
+    throw InputError(path.string() + ": cannot be read; check name and permissions");
+  };
+  if (!stream) fail();
+  std::string text;
+  for (std::array<char, 1 << 16> part{}; stream;) {
+    stream.read(part.data(), part.size());
+    text.append(part.data(), static_cast<std::size_t>(stream.gcount()));
+  }
+  if (stream.bad()) fail();
+  return text;
 }
 
 }  // namespace strake

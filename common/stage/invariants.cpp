@@ -37,11 +37,28 @@ std::string fault_of(const TriMesh& mesh) {
   return "";
 }
 
+/// Of what another program may have written in single precision.
+constexpr double kRounding = 1e-5;
+
+bool are_units(const std::vector<Vec3>& vectors) {
+  return std::ranges::all_of(vectors,
+                             [](const Vec3& v) { return std::abs(v.norm() - 1) <= kRounding; });
+}
+
+bool are_orthogonal(const std::vector<Vec3>& some, const std::vector<Vec3>& others) {
+  return std::ranges::equal(
+      some, others, [](const Vec3& a, const Vec3& b) { return std::abs(a.dot(b)) <= kRounding; });
+}
+
+bool are_shares(const std::vector<double>& values) {
+  return std::ranges::all_of(values, [](double value) { return value >= 0 && value <= 1; });
+}
+
 /// \param tensors  a TensorField or a TensorPart
 template <class Tensors>
 std::string fault_of_tensors(const Tensors& tensors) {
-  return fault_unless(finite(tensors.tensor) && finite(tensors.normal),
-                      "tensors that are no finite numbers");
+  if (!finite(tensors.tensor)) return "tensors that are no finite numbers";
+  return fault_unless(are_units(tensors.normal), "normals that are not of length 1");
 }
 
 std::string fault_of_distances(const std::vector<double>& some, const std::vector<double>& others) {
@@ -50,11 +67,15 @@ std::string fault_of_distances(const std::vector<double>& some, const std::vecto
 }
 
 std::string fault_of(const PrincipalField& field) {
-  const bool directions = finite(field.normal) && finite(field.t_min) && finite(field.cross);
-  const bool curvatures = finite(field.k_min) && finite(field.k_max);
-  return fault_unless(
-      directions && curvatures && finite(field.wedge_confidence) && finite(field.face_confidence),
-      "directions or curvatures that are no finite numbers");
+  if (!finite(field.k_min) || !finite(field.k_max)) return "curvatures that are no finite numbers";
+  for (const std::vector<Vec3>* vectors : {&field.normal, &field.t_min, &field.cross}) {
+    if (!are_units(*vectors)) return "normals or directions that are not of length 1";
+  }
+  if (!are_orthogonal(field.normal, field.t_min) || !are_orthogonal(field.normal, field.cross)) {
+    return "directions that are not orthogonal to the normals";
+  }
+  return fault_unless(are_shares(field.wedge_confidence) && are_shares(field.face_confidence),
+                      "confidences that are not between 0 and 1");
 }
 
 std::string fault_of(const LineSet& lines) {

@@ -114,16 +114,27 @@ std::string content_of(const Value& value, const TriMesh* mesh) {
       value);
 }
 
-void check_output_path(PortKind kind, const fs::path& path) {
+const std::vector<std::string>& output_extensions(PortKind kind) {
+  static const std::vector<std::string> kArtifact = {kArtifactExtension};
+  static const std::vector<std::string> kReport = {".json"};
+  static const std::vector<std::string> kPolygons = {".ply", ".obj", ".off"};
+  static const std::vector<std::string> kQuads = {kArtifactExtension, ".obj", ".ply", ".off"};
+  if (kind == PortKind::report) return kReport;
+  if (kind == PortKind::polygons) return kPolygons;
+  return kind == PortKind::quads ? kQuads : kArtifact;
+}
+
+std::string check_extension(PortKind kind, const fs::path& path) {
   const std::string extension = lower_case(path.extension().string());
-  std::vector<std::string> allowed = {kArtifactExtension};
-  if (kind == PortKind::report) allowed = {".json"};
-  if (kind == PortKind::polygons) allowed = {".obj", ".ply", ".off"};
-  if (kind == PortKind::quads) allowed = {".obj", ".ply", ".off", kArtifactExtension};
-  if (std::find(allowed.begin(), allowed.end(), extension) == allowed.end()) {
-    throw UsageError("output '" + path.string() + "': the name must end in " +
-                     (allowed.size() > 1 ? "one of " : "") + join_words(allowed));
-  }
+  const std::vector<std::string>& allowed = output_extensions(kind);
+  if (std::find(allowed.begin(), allowed.end(), extension) != allowed.end()) return {};
+  return "'" + path.string() + "': the name must end in " + (allowed.size() > 1 ? "one of " : "") +
+         join_words(allowed);
+}
+
+void check_output_path(PortKind kind, const fs::path& path) {
+  const std::string fault = check_extension(kind, path);
+  if (!fault.empty()) throw UsageError("output " + fault);
   check_place("output", path);
 }
 

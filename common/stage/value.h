@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "common/artifact/meshfile/density_reader.h"
 #include "common/artifact/meshfile/mesh_reader.h"
@@ -65,6 +66,13 @@ void save_value(const std::filesystem::path& path, const Value& value, const Tri
 
 /// `content_digest` of the artifact that `save_value` would write; "" of values that are none.
 std::string content_of(const Value& value, const TriMesh* mesh);
+
+/// What names of files for a value of this kind may end in; first what it is written as where
+/// nobody says.
+const std::vector<std::string>& output_extensions(PortKind kind);
+
+/// \return what is wrong with how a file name ends, and the remedy; nothing: it is right
+std::string check_extension(PortKind kind, const std::filesystem::path& path);
 
 /// Refuses a file name that `save_value` could not write to, before any work is done.
 /// \throw UsageError, InputError naming the file and a remedy

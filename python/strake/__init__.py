@@ -139,7 +139,17 @@ def _offsets_and_corners(faces):
         return _np.arange(len(faces) + 1) * faces.shape[1], faces.reshape(-1)
     sizes = [len(face) for face in faces]
     corners = [corner for face in faces for corner in face]
-    return _np.cumsum([0] + sizes), _np.array(corners, dtype=_np.int32)
+    return _np.cumsum([0] + sizes), corners
+
+
+def _whole(numbers, what):
+    """Whole numbers as indices."""
+    numbers = _np.asarray(numbers)
+    with _np.errstate(invalid="ignore"):
+        indices = numbers.astype(_np.int32)
+    if (indices != numbers).any():
+        raise InputError(f"{what} are not all whole numbers from -2^31 to 2^31 - 1")
+    return indices
 
 
 def _numbered(labels):
@@ -150,7 +160,7 @@ def _numbered(labels):
         if values.dtype.kind in "OSU":
             known, values = _np.unique(values.astype(str), return_inverse=True)
             names[kind] = known.tolist()
-        numbers[kind] = values
+        numbers[kind] = _whole(values, f"labels '{kind}'")
     return numbers, names
 
 
@@ -163,7 +173,7 @@ def polygons(vertices, faces, colours=None, texture=None, labels=None):
     of the faces, from those of vertices by uv[faces]; labels, dict of [F] integers or texts, such as
     the material of every face.
     """
-    offsets, corners = _offsets_and_corners(faces)
+    offsets, corners = (_whole(part, "faces") for part in _offsets_and_corners(faces))
     if colours is not None:
         colours = _np.asarray(colours, dtype=float)
         if colours.ndim == 2 and colours.shape[1] == 3:
@@ -175,7 +185,7 @@ def polygons(vertices, faces, colours=None, texture=None, labels=None):
 
 
 def _edges(feature_edges):
-    return None if feature_edges is None else _core.edge_list(feature_edges)
+    return None if feature_edges is None else _core.edge_list(_whole(feature_edges, "feature_edges"))
 
 
 def _guides(guides):

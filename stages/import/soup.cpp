@@ -120,14 +120,22 @@ std::vector<Index> count_copies(const Soup& soup) {
       },
       buckets);
   std::vector<Index> copies(soup.faces.size(), 1);
+  std::vector<std::pair<Index, Index>> fan;  // third corner and face, of those with two the same
   for (Index v = 0; v < soup.vertex_count(); ++v) {
-    for (Index i = buckets[v]; i < buckets[v + 1]; ++i) {
-      const Index third = sorted(entries[i].item)[2];
-      for (Index j = i - 1; j >= buckets[v] && entries[j].key == entries[i].key; --j) {
-        if (copies[entries[j].item] == 0 || sorted(entries[j].item)[2] != third) continue;
-        ++copies[entries[j].item];
-        copies[entries[i].item] = 0;
-        break;
+    for (Index i = buckets[v]; i < buckets[v + 1];) {
+      const Index key = entries[i].key;
+      fan.clear();
+      for (; i < buckets[v + 1] && entries[i].key == key; ++i) {
+        fan.emplace_back(sorted(entries[i].item)[2], entries[i].item);
+      }
+      std::sort(fan.begin(), fan.end());
+      for (std::size_t first = 0, j = 1; j < fan.size(); ++j) {
+        if (fan[j].first != fan[first].first) {
+          first = j;
+        } else {
+          ++copies[fan[first].second];
+          copies[fan[j].second] = 0;
+        }
       }
     }
   }

@@ -1,7 +1,9 @@
 #include "strake/chain/worst_places.h"
 
 #include <algorithm>
+#include <string>
 
+#include "common/core/error.h"
 #include "common/core/number_text.h"
 #include "common/core/wanted_count.h"
 #include "strake/chain/counted.h"
@@ -38,8 +40,13 @@ void improve_worst_places(Session& session, const GoalStages& stages,
   const OtherValue as_room_allows(share, number_text(room));
   Session tried = session;
   tried.use_as("fitted", port);
-  const Report& report = tried.run(stages.worst);
-  if (report.number("refine.largest") == report.number("refine.largest_before")) return;
+  try {
+    const Report& report = tried.run(stages.worst);
+    if (report.number("refine.largest") == report.number("refine.largest_before")) return;
+  } catch (const AlgorithmError& error) {
+    session.say(std::string("warning: left the worst places as they were: ") + error.what());
+    return;
+  }
   session = std::move(tried);
   session.keep(stages.worst);
 }

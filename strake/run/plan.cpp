@@ -11,6 +11,7 @@
 #include "common/artifact/digest.h"
 #include "common/core/error.h"
 #include "common/core/number_text.h"
+#include "common/core/text.h"
 #include "strake/run/rules.h"
 #include "strake/run/stage_catalog.h"
 
@@ -25,14 +26,8 @@ constexpr std::size_t kKeptDigits = 16;
 /// File name of a stage's artifact.
 std::string artifact_name(const Stage& stage, const std::string& extension = "") {
   if (!extension.empty()) return stage.output.name + extension;
-  switch (stage.output.kind) {
-    case PortKind::report:
-      return stage.name + ".json";
-    case PortKind::polygons:
-      return stage.output.name + ".ply";
-    default:
-      return stage.output.name + ".hdf";
-  }
+  const std::string& name = stage.output.kind == PortKind::report ? stage.name : stage.output.name;
+  return name + output_extensions(stage.output.kind).front();
 }
 
 std::string filled_in(std::string text, const std::string& model, const std::string& variant) {
@@ -247,7 +242,7 @@ class Planner {
 
   void deliver(std::size_t step, const std::string& file, const Variant& variant,
                const Place& place) {
-    const std::string wanted = fs::path(file).extension().string();
+    const std::string wanted = lower_case(fs::path(file).extension().string());
     if (wanted != fs::path(plan_.steps[step].file_name).extension()) {
       step = exported(step, wanted, variant);
     }

@@ -327,15 +327,8 @@ void check_delivery(const Description& description, const YamlView::Entry& artif
                                     suggestion(artifact.key, known), fmt::join(known, ", ")));
   }
   const PortKind kind = make_stage(maker->program).output.kind;
-  const std::string extension = fs::path(file).extension().string();
-  const std::vector<std::string> allowed =
-      kind == PortKind::quads      ? std::vector<std::string>{".obj", ".ply", ".off", ".hdf"}
-      : kind == PortKind::polygons ? std::vector<std::string>{".obj", ".ply", ".off"}
-      : kind == PortKind::report   ? std::vector<std::string>{".json"}
-                                   : std::vector<std::string>{".hdf"};
-  if (std::find(allowed.begin(), allowed.end(), extension) == allowed.end()) {
-    place.fail(fmt::format("'{}': the name must end in {}", file, fmt::join(allowed, ", ")));
-  }
+  const std::string fault = check_extension(kind, file);
+  if (!fault.empty()) place.fail(fault);
   for (std::size_t begin = file.find('{'); begin != std::string::npos;
        begin = file.find('{', begin + 1)) {
     if (file.compare(begin, 7, "{model}") != 0 && file.compare(begin, 9, "{variant}") != 0) {

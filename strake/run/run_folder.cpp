@@ -185,6 +185,7 @@ std::optional<StepOutcome> RunFolder::outcome(const std::string& id) const {
     StepOutcome outcome;
     const std::string name = json.at("outcome");
     const auto* kind = std::find(kOutcomeNames.begin(), kOutcomeNames.end(), name);
+    if (kind == kOutcomeNames.end()) throw InputError("there is no outcome '" + name + "'");
     outcome.kind = static_cast<StepOutcome::Kind>(kind - kOutcomeNames.begin());
     outcome.message = json.at("message");
     outcome.warnings = json.at("warnings").get<std::vector<std::string>>();

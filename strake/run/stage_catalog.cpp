@@ -4,6 +4,7 @@
 #include <functional>
 #include <utility>
 
+#include "common/core/error.h"
 #include "stages/coarsen/stage.h"
 #include "stages/decimate/stage.h"
 #include "stages/evaluate/stage.h"
@@ -69,6 +70,9 @@ Stage make_stage(const std::string& name) {
   if (name == kTensorPart) return tensor_part_stage();
   const auto found = std::find_if(catalog().begin(), catalog().end(),
                                   [&](const auto& entry) { return entry.first == name; });
+  if (found == catalog().end()) {
+    throw InputError("there is no stage '" + name + "': another version of strake knows it");
+  }
   return found->second();
 }
 

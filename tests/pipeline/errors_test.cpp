@@ -136,12 +136,61 @@ TEST_F(Errors, CheckTellsThatAMeshWasChanged) {
   must_fail(kBadInput, "strake check changed.hdf", "changed after it was made");
 }
 
+/// A program that knows nothing of the attribute `content` leaves the old one.
+TEST_F(Errors, CheckTellsThatAFieldWasChanged) {
+  run_chain("torus.ply", "");
+  must("strake check field.hdf mesh.hdf");
+  const std::string script =
+      "import h5py\nwith h5py.File('field.hdf', 'r+') as f: f['field/k_max'][...] *= 3\n";
+  put("change.py", script);
+  ASSERT_EQ(shell("/usr/bin/python3 change.py").exit_code, 0);
+  must("strake check field.hdf");  // without its mesh nobody can tell
+  must_fail(kBadInput, "strake check field.hdf mesh.hdf", "changed after it was made");
+}
+
+/// What every stage refuses is not sound.
+TEST_F(Errors, CheckTellsWhatStagesRefuse) {
+  run_chain("torus.ply", "");
+  const TriMesh mesh = read_tri_mesh(file("mesh.hdf"));
+  LineSet lines = read_line_set(file("lines.hdf"));
+  lines.spacing_along_min[0] = -1;
+  write_artifact(file("bad.hdf"), lines, mesh, {});
+  must_fail(kBadInput, "strake-mesh mesh.hdf bad.hdf -o q.hdf", "distances of lines");
+  must_fail(kBadInput, "strake check bad.hdf", "distances of lines");
+  const PrincipalField good = read_principal_field(file("field.hdf"));
+  PrincipalField field = good;
+  field.normal[0] *= 1.1;
+  write_artifact(file("bad.hdf"), field, mesh, {});
+  must_fail(kBadInput, "strake check bad.hdf", "not of length 1");
+  field = good;
+  field.cross[0] = field.normal[0];
+  write_artifact(file("bad.hdf"), field, mesh, {});
+  must_fail(kBadInput, "strake check bad.hdf", "not orthogonal");
+  field = good;
+  field.face_confidence[0] = 5;
+  write_artifact(file("bad.hdf"), field, mesh, {});
+  must_fail(kBadInput, "strake check bad.hdf", "between 0 and 1");
+}
+
+/// A scan that is written again while it is remeshed.
+TEST_F(Errors, InputsAreNotReadAgainAtTheEnd) {
+  const Outcome outcome = shell("( cp torus.ply going.ply && " STRAKE_BIN
+                                "/strake remesh going.ply -o going.hdf --vertices "
+                                "300 2>&1 | while read line; do case $line in tensor*) echo other "
+                                "> going.ply;; esac; done )");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(bytes("going.ply"), "other\n");
+  must("strake check torus.ply going.hdf");
+}
+
 TEST_F(Errors, CheckTellsStaleFromForeign) {
   run_chain("torus.ply", "");
   must("strake check torus.ply mesh.hdf tensor.hdf field.hdf lines.hdf");
   // A chain fits what was refined from an earlier fit, which it does not keep.
   must("strake remesh torus.ply -o q.obj --vertices 300 --keep kept -q");
   must("strake check torus.ply kept/mesh.hdf kept/fitted.hdf kept/refined.hdf kept/quads.hdf");
+  must("strake remesh torus.ply -o whole.hdf --vertices 300 -q");
+  must("strake check torus.ply whole.hdf");
   must("strake check lines.hdf mesh.hdf");  // what is not given is not missed
   must("strake-smooth mesh.hdf tensor.hdf -o other.hdf -q --iterations 9");
   must_fail(
@@ -151,6 +200,9 @@ TEST_F(Errors, CheckTellsStaleFromForeign) {
   must("strake sample sphere -o sphere.ply --faces 500");
   must_fail(kPrecondition, "strake check sphere.ply mesh.hdf",
             "mesh.hdf: stale: made from another 'input' than 'sphere.ply'");
+  must_fail(kPrecondition, "strake check sphere.ply whole.hdf",
+            "whole.hdf: stale: made from another 'input' than 'sphere.ply' is now; run strake "
+            "remesh again");
   must("strake-import sphere.ply -o sphere.hdf -q");
   must_fail(kPrecondition, "strake check sphere.hdf lines.hdf",
             "lines.hdf: foreign: it belongs to another mesh than 'sphere.hdf'");

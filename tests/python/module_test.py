@@ -219,6 +219,12 @@ class Errors(unittest.TestCase):
         self.raises(strake.InputError, "3 columns", lambda: strake.remesh(vertices[:, :2], faces))
         self.raises(strake.InputError, "offsets",
                     lambda: strake.remesh(vertices, (np.array([0, 9]), np.array([0, 1, 2]))))
+        for wrong in (faces + 2**32, faces + 0.5, faces.astype(np.uint64) + np.uint64(2**63)):
+            self.raises(strake.InputError, "faces are not all whole numbers",
+                        lambda: strake.import_mesh(vertices, wrong))
+        self.raises(strake.InputError, "feature_edges are not all whole numbers",
+                    lambda: strake.import_mesh(vertices, faces, feature_edges=[[0, 2**32 + 1]]))
+        strake.import_mesh(vertices, faces.astype(float))
         self.raises(strake.InputError, "no positive number",
                     lambda: strake.remesh(vertices, faces, density=0 * vertices[:, 0]))
         one, other = strake.import_mesh(vertices, faces), strake.import_mesh(2 * vertices, faces)

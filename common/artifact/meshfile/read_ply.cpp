@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -20,6 +22,12 @@ struct RowTargets {
   int texture_list = -1;                          ///< two numbers for each corner
   std::vector<int> labels;
 };
+
+/// Adds a count that the file states, which may be any number.
+void add_stated(std::uint64_t count, std::int64_t& sum) {
+  const auto room = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max() - sum);
+  sum += static_cast<std::int64_t>(std::min(count, room));
+}
 
 bool is_integer(PlyType type) { return type != PlyType::float32 && type != PlyType::float64; }
 
@@ -142,10 +150,8 @@ class ElementReader {
       list_.clear();
       texture_list_.clear();
       if (!read_row()) {
-        if (vertices) report_.missing_vertices = static_cast<std::int64_t>(element_.count - row);
-        if (faces || strips) {
-          report_.missing_faces += static_cast<std::int64_t>(element_.count - row);
-        }
+        if (vertices) add_stated(element_.count - row, report_.missing_vertices);
+        if (faces || strips) add_stated(element_.count - row, report_.missing_faces);
         return false;
       }
       if (vertices) add_vertex();
@@ -259,9 +265,10 @@ void complete_attributes(PolyMesh& mesh, const std::vector<TexturePoint>& vertex
 
 /// What an element that is never reached because the data ended before it leaves missing.
 void count_unreached(const PlyElement& element, ReadReport& report) {
-  const auto count = static_cast<std::int64_t>(element.count);
-  if (element.name == "vertex") report.missing_vertices += count;
-  if (element.name == "face" || element.name == "tristrips") report.missing_faces += count;
+  if (element.name == "vertex") add_stated(element.count, report.missing_vertices);
+  if (element.name == "face" || element.name == "tristrips") {
+    add_stated(element.count, report.missing_faces);
+  }
 }
 
 template <typename Source>

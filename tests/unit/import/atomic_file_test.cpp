@@ -8,6 +8,7 @@
 #include <iterator>
 #include <string>
 
+#include "common/artifact/text_file.h"
 #include "common/core/error.h"
 
 namespace strake {
@@ -129,6 +130,18 @@ TEST_F(AtomicFileTest, TwoWritersDoNotDisturbEachOther) {
   first.commit();
   second.commit();
   EXPECT_EQ(read(target), "second");
+}
+
+TEST_F(AtomicFileTest, TextIsReadWholeOrNotAtAll) {
+  for (const std::size_t size :
+       {std::size_t{0}, std::size_t{1}, std::size_t{65536}, std::size_t{200001}}) {
+    std::string text(size, 'a');
+    if (size > 0) text.back() = '\0';
+    write(folder_ / "text", text);
+    EXPECT_EQ(read_text(folder_ / "text"), text) << size;
+  }
+  EXPECT_THROW(read_text(folder_), InputError);
+  EXPECT_THROW(read_text(folder_ / "none"), InputError);
 }
 
 }  // namespace

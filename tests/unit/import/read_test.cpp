@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <string>
 
 #include "common/artifact/meshfile/mesh_reader.h"
@@ -173,6 +174,18 @@ TEST(ReadStl, Ascii) {
 }
 
 // --- PLY
+
+TEST(ReadPly, CountsOfNothingAddUpToTheLargestNumber) {
+  const std::string faces =
+      "element face 9223372036854775807\nproperty list uchar int vertex_indices\n";
+  ReadReport report;
+  parse(
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\n" +
+          faces + faces + "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+      report, ".ply");
+  EXPECT_EQ(report.missing_faces, std::numeric_limits<std::int64_t>::max());
+}
 
 template <typename Value>
 void put(std::string& bytes, Value value, bool big_endian) {

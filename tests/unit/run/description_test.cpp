@@ -192,7 +192,7 @@ const Fault kFaults[] = {
     {"UnknownArtifact", "version: 1\nmodels: [a.obj]\noutputs: {quad: x.obj}\n",
      "3:11: ", "did you mean 'quads'"},
     {"WrongExtension", "version: 1\nmodels: [a.obj]\noutputs: {quads: x.stl}\n",
-     "3:18: ", "must end in .obj"},
+     "3:18: ", "must end in one of .hdf, .obj"},
     {"ReportAsText", "version: 1\nmodels: [a.obj]\noutputs: {report: x.txt}\n", "3:19: ", ".json"},
     {"OneFileForAllModels", "version: 1\nmodels: [a.obj, b.ply]\noutputs: {quads: x.obj}\n",
      "3:18: ", "put {model} in it"},

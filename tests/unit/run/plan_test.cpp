@@ -6,6 +6,7 @@
 #include <set>
 
 #include "common/core/error.h"
+#include "strake/run/stage_catalog.h"
 #include "tests/unit/run/pipeline_file.h"
 
 namespace strake::run_test {
@@ -188,6 +189,18 @@ TEST_F(PlanTest, OutputsGoToTheStepThatGivesThem) {
             (std::vector<std::string>{file("x.obj"), file("y.obj")}));
   EXPECT_EQ(step(made, "a.export.off").deliver_to, std::vector<std::string>{file("x.off")});
   EXPECT_EQ(step(made, "a.evaluate").deliver_to, std::vector<std::string>{file("x.json")});
+}
+
+TEST_F(PlanTest, NamesOfOutputsMayEndInCapitals) {
+  const Plan made = plan("models: [a.obj]\noutputs: {quads: [X.OBJ, X.HDF]}\n");
+  const auto file = [&](const char* name) { return (folder_ / name).string(); };
+  EXPECT_EQ(step(made, "a.export.obj").deliver_to, std::vector<std::string>{file("X.OBJ")});
+  EXPECT_EQ(step(made, "a.mesh").deliver_to, std::vector<std::string>{file("X.HDF")});
+}
+
+TEST(StageCatalog, StagesOfOtherVersionsAreToldOf) {
+  EXPECT_EQ(make_stage("trace").name, "trace");
+  EXPECT_THROW(make_stage("nope"), InputError);
 }
 
 TEST_F(PlanTest, UntilLeavesOutWhatComesAfterAndBeside) {
