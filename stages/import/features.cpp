@@ -4,8 +4,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <span>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -36,6 +40,25 @@ std::vector<float> bend_angles(const TriMesh& mesh, const std::vector<Vec3>& nor
   return bend;
 }
 
+/// The n-th least of the numbers in some lists. \pre each list ascends, and there is one
+template <std::size_t N>
+float nth_of_sorted(const std::array<std::span<const float>, N>& lists, std::size_t n) {
+  const auto count_up_to = [&](float value) {
+    std::size_t count = 0;
+    for (const auto& list : lists) {
+      count += static_cast<std::size_t>(std::ranges::upper_bound(list, value) - list.begin());
+    }
+    return count;
+  };
+  float least = std::numeric_limits<float>::infinity();
+  for (const auto& list : lists) {
+    const auto at =
+        std::ranges::partition_point(list, [&](float value) { return count_up_to(value) <= n; });
+    if (at != list.end()) least = std::min(least, *at);
+  }
+  return least;
+}
+
 /// What the median bend around an edge exceeds that of a smooth, finely meshed surface by. The
 /// edges at its four vertices count that are bent by at most `angle`, but for those that are no
 /// noise, and the spokes of an even fan: those around the tip of a cone are many.
@@ -47,32 +70,35 @@ class Roughness {
       : mesh_(mesh), bend_(bend), is_no_noise_(is_no_noise), angle_(angle) {}
 
   double operator()(Index h) {
-    bends_.clear();
-    for (const Index v : {mesh_.from(h), mesh_.to(h), mesh_.from(TriMesh::prev(h)),
-                          mesh_.from(TriMesh::prev(mesh_.twin[h]))}) {
-      add_bends_at(v);
-    }
-    if (bends_.empty()) return 0;
-    const auto middle = bends_.begin() + static_cast<std::ptrdiff_t>(bends_.size() / 2);
-    std::nth_element(bends_.begin(), middle, bends_.end());
-    return std::max(*middle - kSmooth, 0.0);
+    const std::array<Index, 4> vertices = {mesh_.from(h), mesh_.to(h), mesh_.from(TriMesh::prev(h)),
+                                           mesh_.from(TriMesh::prev(mesh_.twin[h]))};
+    for (std::size_t i = 0; i < vertices.size(); ++i) bends_[i] = bends_at(vertices[i], own_[i]);
+    return std::max(share_of_bends(0.5) - kSmooth, 0.0);
   }
 
   /// The bend that a quarter of the edges around the last one have at most.
-  double quarter() {
-    if (bends_.empty()) return 0;
-    const auto at = bends_.begin() + static_cast<std::ptrdiff_t>(bends_.size() / 4);
-    std::nth_element(bends_.begin(), at, bends_.end());
-    return *at;
-  }
+  [[nodiscard]] double quarter() const { return share_of_bends(0.25); }
 
  private:
   static constexpr double kSmooth = 5 * kDegree;
   /// Spokes that are bent like the two beside them make an even fan, if they are so many.
   static constexpr std::size_t kFewestSpokes = 5;
   static constexpr float kEven = 0.8F;  ///< share of the larger bend that the smaller one has
+  /// Edges at a vertex from which on their bends are kept for the others of them.
+  static constexpr std::size_t kHub = 64;
 
-  void add_bends_at(Index v) {
+  /// The bend that this share of the edges around the last one have at most; 0 where none counts.
+  [[nodiscard]] double share_of_bends(double share) const {
+    std::size_t count = 0;
+    for (const auto& bends : bends_) count += bends.size();
+    if (count == 0) return 0;
+    return nth_of_sorted(bends_, static_cast<std::size_t>(share * static_cast<double>(count)));
+  }
+
+  /// Those at a vertex that count, ascending. \param own  holds them where they are not kept
+  std::span<const float> bends_at(Index v, std::vector<float>& own) {
+    if (const auto hub = hubs_.find(v); hub != hubs_.end()) return hub->second;
+    own.clear();
     around_.clear();
     for_each_outgoing(mesh_, v,
                       [&](Index e) { around_.push_back(mesh_.twin[e] != kNone ? bend_[e] : 0); });
@@ -89,17 +115,22 @@ class Roughness {
     for_each_outgoing(mesh_, v, [&](Index e) {
       const bool counts = mesh_.twin[e] != kNone && bend_[e] <= angle_ && is_no_noise_[e] == 0 &&
                           !(is_fan && is_spoke(i));
-      if (counts) bends_.push_back(bend_[e]);
+      if (counts) own.push_back(bend_[e]);
       ++i;
     });
+    std::sort(own.begin(), own.end());
+    if (count < kHub) return own;
+    return hubs_.emplace(v, own).first->second;
   }
 
   const TriMesh& mesh_;
   const std::vector<float>& bend_;
   const std::vector<std::uint8_t>& is_no_noise_;
   double angle_;
-  std::vector<float> bends_;
-  std::vector<float> around_;  ///< bends at one vertex
+  std::unordered_map<Index, std::vector<float>> hubs_;  ///< what `bends_at` gives
+  std::array<std::vector<float>, 4> own_;
+  std::array<std::span<const float>, 4> bends_;  ///< at the vertices around the last edge
+  std::vector<float> around_;                    ///< bends at one vertex
 };
 
 Vec3 direction(const TriMesh& mesh, Index h) {

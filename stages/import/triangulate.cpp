@@ -235,7 +235,9 @@ class EarClipper {
     clipped_since_retry_ = true;
     push(before);
     push(after);
-    std::erase_if(reflex_, [&](int r) { return next_[r] < 0 || ear_shape(r) > 0; });
+    std::erase_if(reflex_, [&](int r) {  // of no other corner anything has changed
+      return r == ear || ((r == before || r == after) && ear_shape(r) > 0);
+    });
   }
 
   int count_;
