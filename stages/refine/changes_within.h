@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,11 @@ void refill_within(ToleranceProof& proof, QuadMesh& quads);
 /// \param may_change  [V] 1: of faces that may; empty: all may
 void pair_odd_cells_within(ToleranceProof& proof, const SurfacePoints& points,
                            const std::vector<char>& may_change, QuadMesh& quads);
+
+/// Likewise, where no tolerance holds: where they come no farther from the surface than those were
+/// that they take the place of, or than twice the root mean square.
+void pair_odd_cells_as_near(const std::shared_ptr<const InputSurface>& input,
+                            const SurfacePoints& points, QuadMesh& quads);
 
 /// Makes triangles of the cells that others could cut otherwise (ToleranceProof::cells_in_doubt):
 /// those by which it was proven. A cell stays where an edge of theirs would be double.

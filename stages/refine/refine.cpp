@@ -17,7 +17,6 @@
 #include "common/geometry/cell_error/cell_error.h"
 #include "common/geometry/cell_error/tolerance_check.h"
 #include "stages/refine/cells_beyond.h"
-#include "stages/refine/changes_within.h"
 #include "stages/refine/division.h"
 #include "stages/refine/refinement.h"
 
@@ -132,6 +131,7 @@ std::int64_t refine_to_count(const TriMesh& mesh, Refinement& refinement,
     divide_without_faults(refinement, surfaces, cells_by_distance(surfaces),
                           static_cast<std::size_t>(cells), std::numeric_limits<double>::infinity());
   }
+  refinement.pair_odd_cells(input);
   return round;
 }
 

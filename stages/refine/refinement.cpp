@@ -8,7 +8,6 @@
 #include "common/geometry/nearest_on_surface.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/poly_topology/poly_edges.h"
-#include "stages/refine/changes_within.h"
 #include "stages/refine/edges_across_bend.h"
 #include "stages/refine/flat_faces.h"
 #include "stages/refine/turned_ears.h"

@@ -43,6 +43,10 @@ class Refinement {
   /// Parts faces that cross in a result that is within the tolerance, takes out those without
   /// area, and pairs odd cells.
   void finish(ToleranceProof& proof, const InlayLimits& limits = kInlaysUncrossed);
+  /// Pairs odd cells where no tolerance holds.
+  void pair_odd_cells(const std::shared_ptr<const InputSurface>& input) {
+    pair_odd_cells_as_near(input, points_, quads_);
+  }
   /// Cuts cells so that it is whoever measures it. \pre finished
   void cut_in_doubt(ToleranceProof& proof) { cut_cells_in_doubt(proof, quads_); }
 
