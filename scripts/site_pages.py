@@ -31,10 +31,12 @@ def on_page_markdown(markdown, page, **_):
     """Links between the root and docs/ become links between pages of the site."""
     def linked(match):
         target = match[1]
+        up = "../" * page.file.src_path.count("/")  # from the page's folder to docs/
         if page.file.src_path in PAGES:
             target = target.removeprefix("docs/") if target.startswith("docs/") else PLACES.get(target, target)
-        elif target.startswith("../"):
-            target = PLACES.get(target[3:], target)
+        elif target.startswith(f"{up}../"):
+            place = PLACES.get(target.removeprefix(f"{up}../"))
+            target = f"{up}{place}" if place else target
         return f"]({target}{match[2]}"
 
     return re.sub(r"\]\(([^)#:]+)([)#])", linked, markdown)
