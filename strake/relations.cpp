@@ -59,7 +59,8 @@ const GivenFile* other_input(const GivenFile& file, const Provenance::InputRecor
   for (const GivenFile& other : all) {
     if (other.content == input.digest) return nullptr;
     const bool is_for_it =
-        other.info ? other.port == input.role && &other != &file && !is_made_from(other, file)
+        other.info ? other.port == input.role && &other != &file && !is_made_from(other, file) &&
+                         (is_mesh(other) || other.info->mesh_id == file.info->mesh_id)
                    : is_model;
     if (is_for_it) found = &other;
   }

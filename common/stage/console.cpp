@@ -64,10 +64,20 @@ void handle_interrupts(int flags) {
 void print_event(const nlohmann::ordered_json& event) {
   constexpr bool kAsciiOnly = true;
   using Handler = nlohmann::ordered_json::error_handler_t;
-  fmt::print(stderr, "{}\n", event.dump(-1, ' ', kAsciiOnly, Handler::replace));
+  write_stderr(event.dump(-1, ' ', kAsciiOnly, Handler::replace) + "\n");
 }
 
 }  // namespace
+
+void open_missing_streams() {
+  for (int number = 0; number < 3; ++number) {
+    if (::fcntl(number, F_GETFD) < 0) static_cast<void>(::open("/dev/null", O_RDONLY));
+  }
+}
+
+void write_stderr(std::string_view text) {
+  static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
+}
 
 void catch_interrupts() {
   handle_interrupts(static_cast<int>(SA_RESETHAND | SA_RESTART));
@@ -122,7 +132,7 @@ void say_error(const std::string& program, const std::string& message, ExitCode 
                  {"code", static_cast<int>(code)},
                  {"message", message}});
   } else {
-    fmt::print(stderr, "{}\n", highlighted(program + ": error: " + message));
+    write_stderr(highlighted(program + ": error: " + message) + "\n");
   }
 }
 
@@ -163,13 +173,13 @@ void ConsoleObserver::show_progress(double share, bool new_phase) {
     const int full = static_cast<int>(share * kWidth);
     const std::chrono::duration<double> elapsed = last_shown_ - phase_began_;
     const std::string pace = pace_text(elapsed.count(), share);
-    fmt::print(stderr, "\r\033[K{:9} [{:=<{}}{:{}}] {:3.0f} % {}{}{}", label_, "", full, "",
-               kWidth - full, 100 * share, phase_, pace.empty() ? "" : ", ", pace);
+    write_stderr(fmt::format("\r\033[K{:9} [{:=<{}}{:{}}] {:3.0f} % {}{}{}", label_, "", full, "",
+                             kWidth - full, 100 * share, phase_, pace.empty() ? "" : ", ", pace));
     bar_visible_ = true;
   } else if (new_phase) {
-    fmt::print(stderr, "{}: {}\n", label_, phase_);
+    write_stderr(fmt::format("{}: {}\n", label_, phase_));
   } else {
-    fmt::print(stderr, "{}: {} {:.0f} %\n", label_, phase_, 100 * share);
+    write_stderr(fmt::format("{}: {} {:.0f} %\n", label_, phase_, 100 * share));
   }
 }
 
@@ -180,12 +190,12 @@ void ConsoleObserver::say(const std::string& line) {
     return;
   }
   clear_bar();
-  fmt::print(stderr, "{}\n", highlighted(line));
+  write_stderr(highlighted(line) + "\n");
 }
 
 void ConsoleObserver::clear_bar() {
   if (!bar_visible_) return;
-  fmt::print(stderr, "\r\033[K");
+  write_stderr("\r\033[K");
   std::fflush(stderr);
   bar_visible_ = false;
 }

@@ -15,6 +15,14 @@ enum class Verbosity { quiet, normal, verbose };
 /// How events are written to stderr: for people, or one JSON object per line for programs.
 enum class LogFormat { text, json };
 
+/// Takes the numbers of standard streams that are closed, so that no file that is opened later gets
+/// one, and messages with it. Writing to them fails as before.
+void open_missing_streams();
+
+/// Writes to stderr. Where that fails, as on a full disk or a closed stream, the text is lost, and
+/// nothing else: a run goes on without anybody listening.
+void write_stderr(std::string_view text);
+
 /// From now on SIGINT and SIGTERM ask the running stage to stop; a second one ends the program. A
 /// limit of file sizes is an error like a full disk, and ends nothing.
 void catch_interrupts();

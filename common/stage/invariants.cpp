@@ -26,10 +26,19 @@ bool positive(const std::vector<double>& values) {
          finite(values);
 }
 
+/// Coordinate up to which products of a few of them are finite, too.
+constexpr double kFarthest = 1e100;
+
+bool are_places(const std::vector<Vec3>& positions) {
+  return std::ranges::all_of(positions,
+                             [](const Vec3& p) { return (p.array().abs() <= kFarthest).all(); });
+}
+
 std::string fault_unless(bool sound, const char* fault) { return sound ? "" : fault; }
 
 std::string fault_of(const TriMesh& mesh) {
   try {
+    if (!are_places(mesh.positions)) return "a vertex that is nowhere";
     validate(mesh);
   } catch (const Error& error) {
     return error.what();
@@ -88,7 +97,7 @@ std::string fault_of(const LineSet& lines) {
 }
 
 std::string fault_of(const QuadMesh& quads) {
-  if (!finite(quads.mesh.positions)) return "a vertex that is nowhere";
+  if (!are_places(quads.mesh.positions)) return "a vertex that is nowhere";
   const PolyTopology topology = analyse(quads.mesh);
   if (!topology.is_oriented_manifold()) return topology.defects();
   return fault_unless(topology.unused_vertices == 0, "a vertex of no face");

@@ -348,6 +348,7 @@ int run_guarded(const std::string& program, LogFormat errors, const std::functio
     return static_cast<int>(code);
   };
   try {
+    open_missing_streams();
     catch_interrupts();
     const int exit_code = body();
     if (exit_code == 0) flush_output();  // a failure has its own code

@@ -12,6 +12,7 @@
 #include "common/core/error.h"
 #include "common/core/text.h"
 #include "common/stage/build_facts.h"
+#include "common/stage/console.h"
 #include "common/stage/program.h"
 #include "strake/render/camera.h"
 #include "strake/render/draw.h"
@@ -183,7 +184,7 @@ void draw_file(const Arguments& arguments) {
   ReadReport read;
   PolyMesh mesh = read_mesh(arguments.mesh, read);
   for (const std::string& warning : read.warnings()) {
-    std::fprintf(stderr, "strake-render: %s\n", warning.c_str());
+    write_stderr("strake-render: " + warning + "\n");
   }
   Scene scene(std::move(mesh), arguments.mesh, arguments.flat);
   View view = arguments.view;

@@ -41,6 +41,13 @@ std::string filled_in(std::string text, const std::string& model, const std::str
   return text;
 }
 
+/// Where a file is, or would be, without links on the way.
+fs::path real_path(const fs::path& file) {
+  std::error_code ignored;
+  const fs::path real = fs::weakly_canonical(file, ignored);
+  return real.empty() ? file : real;
+}
+
 /// \pre both are absolute and normal
 bool is_below(const fs::path& path, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
@@ -77,6 +84,13 @@ class Planner {
   Planner(const Description& description, const Selection& selection)
       : description_(description), selection_(selection) {
     plan_.store = description.store;
+    for (const ModelEntry& model : description.models) {
+      for (const auto& [name, file] : model.inputs) {
+        sources_.emplace(real_path(file),
+                         fmt::format("the '{}' of the model '{}'", name, model.name));
+      }
+      sources_.insert_or_assign(real_path(model.file), fmt::format("the model '{}'", model.name));
+    }
   }
 
   Plan make() {
@@ -246,20 +260,17 @@ class Planner {
     if (wanted != fs::path(plan_.steps[step].file_name).extension()) {
       step = exported(step, wanted, variant);
     }
-    for (const ModelEntry& model : description_.models) {
-      if (model.file == file) place.fail(fmt::format("'{}' is the model '{}'", file, model.name));
-      for (const auto& [name, input] : model.inputs) {
-        if (input != file) continue;
-        place.fail(fmt::format("'{}' is the '{}' of the model '{}'", file, name, model.name));
-      }
+    const fs::path target = real_path(file);
+    if (const auto source = sources_.find(target); source != sources_.end()) {
+      place.fail(fmt::format("'{}' is {}", file, source->second));
     }
-    if (is_below(file, plan_.store)) {
+    if (is_below(target, real_path(plan_.store))) {
       place.fail(
           fmt::format("'{}' lies in the store, whose files are strake's own; write it to "
                       "another folder",
                       file));
     }
-    const auto [writer, is_new] = writers_.emplace(file, step);
+    const auto [writer, is_new] = writers_.emplace(target, step);
     if (!is_new && writer->second != step) {
       place.fail(fmt::format("'{}' would be written twice, for '{}' too", file,
                              plan_.steps[writer->second].model));
@@ -309,9 +320,10 @@ class Planner {
   const Description& description_;
   const Selection& selection_;
   Plan plan_;
-  std::map<std::string, std::size_t> known_;    ///< steps by what makes them equal
-  std::map<std::string, std::size_t> writers_;  ///< steps by the outputs they give
-  double faces_ = 0;                            ///< of the present model
+  std::map<std::string, std::size_t> known_;  ///< steps by what makes them equal
+  std::map<fs::path, std::string> sources_;   ///< what a file of the user is, by its real path
+  std::map<fs::path, std::size_t> writers_;   ///< steps by the real paths of what they give
+  double faces_ = 0;                          ///< of the present model
 };
 
 }  // namespace

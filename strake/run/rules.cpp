@@ -22,10 +22,13 @@ const std::vector<std::string> kResourceKeys = {"memory",        "memory-per-fac
 constexpr const char* kProgramPrefix = "strake-";
 constexpr std::int64_t kMostParts = 4096;
 
+/// Stands for the result of all stages, until these are known; no name of an artifact.
+constexpr const char* kResult = "<result>";
+
 /// The artifact that a port takes unless the file says otherwise.
 std::string usual_source(const std::string& port) {
   if (port == "input") return kModelArtifact;
-  return port == "candidate" ? "fitted" : port;
+  return port == "candidate" ? kResult : port;
 }
 
 Rule usual_rule(const std::string& name, const std::string& program, const Place& place) {
@@ -148,9 +151,33 @@ bool is_side_file(PortKind kind) {
   return kind == PortKind::edge_list || kind == PortKind::density || kind == PortKind::guides;
 }
 
+/// Fills in the result: the faces of which no stage makes others.
+void find_result(std::vector<Rule>& rules) {
+  std::vector<std::string> results;
+  for (const Rule& rule : rules) {
+    if (make_stage(rule.program).output.kind == PortKind::quads) results.push_back(rule.output);
+  }
+  for (const Rule& rule : rules) {
+    if (make_stage(rule.program).output.kind != PortKind::quads) continue;
+    for (const auto& [port, source] : rule.inputs) std::erase(results, source);
+  }
+  for (Rule& rule : rules) {
+    for (auto& [port, source] : rule.inputs) {
+      if (source != kResult) continue;
+      if (results.size() > 1) {
+        rule.place.fail(
+            fmt::format("stage '{}' may take any of {}; say which with 'inputs: {{{}: {}}}'",
+                        rule.name, fmt::join(results, ", "), port, results.back()));
+      }
+      source = results.empty() ? port : results.front();
+    }
+  }
+}
+
 /// Checks that each input is made by some rule, of the right kind, or may be a file of a model;
 /// drops ports left open.
 void check_wires(std::vector<Rule>& rules) {
+  find_result(rules);
   std::vector<std::string> artifacts = {kModelArtifact};
   for (const Rule& rule : rules) {
     if (std::find(artifacts.begin(), artifacts.end(), rule.output) != artifacts.end()) {

@@ -16,6 +16,7 @@
 
 #include "common/artifact/store/folder_lock.h"
 #include "common/core/error.h"
+#include "common/stage/console.h"
 #include "strake/commands.h"
 #include "strake/run/ninja_engine.h"
 #include "strake/run/old_runs.h"
@@ -231,7 +232,7 @@ int RunCommand::run_on_cluster(const Description& description, const Plan& plan,
   RunDisplay display(folder, orders, quiet);
   wait_for_slurm(folder, orders, [&] { display.update(); });
   display.finish();
-  if (interrupt_requested() && !quiet) fmt::print(stderr, "strake: the jobs go on\n");
+  if (interrupt_requested() && !quiet) write_stderr("strake: the jobs go on\n");
   return conclude(folder, orders, "see the logs in " + (folder.path() / "logs").string());
 }
 
@@ -291,7 +292,7 @@ int RunCommand::run() {
     refuse_what_lies_before(plan, states);
     for (const StepState& state : states) {
       if (!quiet && state.damaged) {
-        fmt::print(stderr, "strake: warning: {}; it is made again\n", state.reason);
+        write_stderr(fmt::format("strake: warning: {}; it is made again\n", state.reason));
       }
     }
     if (dry_run || (explain && round == 1)) print_plan(plan, states);

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "common/stage/console.h"
 #include "strake/run/resources.h"
 
 namespace strake {
@@ -69,11 +70,11 @@ void RunDisplay::show_ended() {
         outcome_text(*outcome),
         outcome->kind == StepOutcome::Kind::ran ? ", " + seconds_text(outcome->seconds) : "");
     for (const std::string& warning : outcome->warnings) {
-      fmt::print(stderr, "    warning: {}\n", warning);
+      write_stderr(fmt::format("    warning: {}\n", warning));
     }
     if (!outcome->message.empty()) {
-      fmt::print(stderr, "    {}\n    log: {}\n", outcome->message,
-                 folder_.log_file(order.id).string());
+      write_stderr(fmt::format("    {}\n    log: {}\n", outcome->message,
+                               folder_.log_file(order.id).string()));
     }
   }
 }
@@ -84,14 +85,14 @@ void RunDisplay::show_running() {
     const auto order = std::find_if(orders_.begin(), orders_.end(),
                                     [&](const StepOrder& other) { return other.id == running.id; });
     if (order == orders_.end() || ended_.count(running.id) != 0) continue;
-    fmt::print(stderr, "  {}: {}\n", order->title, running.text);
+    write_stderr(fmt::format("  {}: {}\n", order->title, running.text));
     if (terminal_) ++block_lines_;
   }
   std::fflush(stderr);
 }
 
 void RunDisplay::clear_block() {
-  for (; block_lines_ > 0; --block_lines_) fmt::print(stderr, "\033[A\033[2K");
+  for (; block_lines_ > 0; --block_lines_) write_stderr("\033[A\033[2K");
 }
 
 std::string run_table(const RunFolder& folder, const std::vector<StepOrder>& orders) {

@@ -118,7 +118,7 @@ std::vector<std::string> submit_to_slurm(const fs::path& scripts) {
     if (!first.empty() && first.find_first_not_of("0123456789") == std::string::npos) {
       jobs.push_back(first);
     } else {
-      fmt::print(stderr, "{}\n", line);  // a warning of sbatch
+      write_stderr(fmt::format("{}\n", line));  // a warning of sbatch
     }
   }
   return jobs;

@@ -172,6 +172,20 @@ TEST_F(Errors, CheckTellsWhatStagesRefuse) {
   must_fail(kBadInput, "strake check bad.hdf", "between 0 and 1");
 }
 
+TEST_F(Errors, NobodyHasToListen) {
+  for (const char* closed :
+       {"2>/dev/full", "2>&-", "<&- 2>&-", ">/dev/null 2>/dev/full --log-json"}) {
+    const Outcome outcome = shell("(" STRAKE_BIN
+                                  "/strake remesh torus.ply -o heard.obj --vertices "
+                                  "300 " +
+                                  std::string(closed) + ")");
+    EXPECT_EQ(outcome.exit_code, 0) << closed;
+    EXPECT_TRUE(std::filesystem::remove(file("heard.obj"))) << closed;
+  }
+  EXPECT_EQ(shell("(" STRAKE_BIN "/strake remesh none.ply -o x.obj 2>/dev/full)").exit_code,
+            kBadInput);
+}
+
 /// A scan that is written again while it is remeshed.
 TEST_F(Errors, InputsAreNotReadAgainAtTheEnd) {
   const Outcome outcome = shell("( cp torus.ply going.ply && " STRAKE_BIN

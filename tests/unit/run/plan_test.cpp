@@ -191,6 +191,42 @@ TEST_F(PlanTest, OutputsGoToTheStepThatGivesThem) {
   EXPECT_EQ(step(made, "a.evaluate").deliver_to, std::vector<std::string>{file("x.json")});
 }
 
+TEST_F(PlanTest, LinksToAModelAreTheModel) {
+  std::filesystem::create_symlink(".", folder_ / "self");
+  std::filesystem::create_symlink("a.obj", folder_ / "link.obj");
+  for (const char* output : {"self/a.obj", "link.obj"}) {
+    const std::string text =
+        "version: 1\nmodels: [a.obj]\noutputs: {fitted: " + std::string(output);
+    EXPECT_NE(complaint(text + "}\n").find("is the model 'a'"), std::string::npos) << output;
+  }
+  const std::string twice = "outputs: {fitted: b.obj, quads: self/b.obj}\n";
+  EXPECT_NE(complaint("version: 1\nmodels: [a.obj]\n" + twice).find("would be written twice"),
+            std::string::npos);
+  std::filesystem::remove(folder_ / "self");
+  std::filesystem::remove(folder_ / "link.obj");
+}
+
+TEST_F(PlanTest, WhatIsEvaluatedIsTheLastResult) {
+  const auto evaluated = [&](const std::string& more) {
+    const Plan made = make_plan(
+        describe("version: 1\nmodels: [a.obj]\nstages: {import: {}, tensor: {}, smooth: {}, "
+                 "trace: {}, mesh: {}, evaluate: {}" +
+                 more + "}\n"),
+        {});
+    for (const StepInput& input : step(made, "a.evaluate").inputs) {
+      if (input.port == "candidate") return made.steps[input.step].rule;
+    }
+    return std::string();
+  };
+  EXPECT_EQ(evaluated(""), "mesh");
+  EXPECT_EQ(evaluated(", fit: {}"), "fit");
+  EXPECT_EQ(evaluated(", fit: {}, refine: {}"), "refine");
+  EXPECT_NE(complaint("version: 1\nmodels: [a.obj]\nstages: {import: {}, tensor: {}, smooth: {}, "
+                      "trace: {}, mesh: {}, fit: {}, refine: {}, refine-worst: {}, evaluate: {}}\n")
+                .find("may take any of refined, improved"),
+            std::string::npos);
+}
+
 TEST_F(PlanTest, NamesOfOutputsMayEndInCapitals) {
   const Plan made = plan("models: [a.obj]\noutputs: {quads: [X.OBJ, X.HDF]}\n");
   const auto file = [&](const char* name) { return (folder_ / name).string(); };
