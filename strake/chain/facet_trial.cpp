@@ -50,7 +50,7 @@ class HeldWarnings : public StageObserver {
   void begin(const std::string& stage) override { user_.begin(stage); }
   void report(std::string_view phase, double fraction) override { user_.report(phase, fraction); }
   void say(const std::string& line) override {
-    if (line.starts_with("warning: ")) {
+    if (line.starts_with("warning: ") || line.find(": warning: ") != std::string::npos) {
       lines_.push_back(line);
     } else {
       user_.say(line);

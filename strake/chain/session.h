@@ -46,7 +46,11 @@ class Session {
   /// Whom stages report to, and lines for the user go to.
   [[nodiscard]] StageObserver& observer() const { return *observer_; }
   /// \param observer  from now on; kept by reference
-  void report_to(StageObserver& observer) { observer_ = &observer; }
+  /// From now on, of this session alone. What other sessions say counts as not said to it.
+  void report_to(StageObserver& observer) {
+    observer_ = &observer;
+    warned_of_ = std::make_shared<std::set<std::string>>(*warned_of_);
+  }
 
   /// Provides a value that no stage makes. \param digest  of the file it was read from, or ""
   void provide(const std::string& port, Value value, const std::string& origin,

@@ -40,7 +40,19 @@ PolyMesh roof() {
 class Trial {
  public:
   Trial(QuadMesh plain, QuadMesh faceted)
-      : plain_(std::move(plain)), faceted_(std::move(faceted)), import_(import_stage()) {}
+      : plain_(std::move(plain)), faceted_(std::move(faceted)), import_(import_stage()) {
+    warner_.name = "warner";
+    warner_.output = {"warned", PortKind::report, ""};
+    warner_.run = [](Inputs& inputs, Observer& /*observer*/) {
+      StageResult result;
+      const auto& mesh = inputs.get<TriMesh>("mesh");
+      const bool has_facets = std::ranges::count(mesh.is_feature, 1) > 0;
+      result.report.warn("of both");
+      result.report.warn(has_facets ? "of facets" : "of none");
+      return result;
+    };
+    warner_.inputs = {{"mesh", PortKind::mesh, ""}};
+  }
 
   /// \return the result for as many vertices as the first one has
   QuadMesh run(bool keeps = false) {
@@ -63,6 +75,7 @@ class Trial {
                           },
                           [&](Session& other) {
                             const bool has_facets = !height.value().empty();
+                            other.run(warner_);
                             other.say(has_facets ? "warning: of facets" : "warning: of none");
                             QuadMesh result = has_facets ? faceted_ : plain_;
                             result.mesh_id = other.get<TriMesh>("mesh").id;
@@ -87,6 +100,7 @@ class Trial {
   QuadMesh plain_;
   QuadMesh faceted_;
   Stage import_;
+  Stage warner_;  ///< whose warnings tell which trial it ran in
 };
 
 QuadMesh quads_of(const PolyMesh& mesh) {
@@ -134,6 +148,9 @@ TEST(FacetTrial, WhatIsNearerIsTaken) {
   EXPECT_EQ(trial.run().mesh.positions, exact().mesh.positions);
   EXPECT_TRUE(trial.was_said("warning: of facets"));
   EXPECT_FALSE(trial.was_said("warning: of none"));
+  EXPECT_TRUE(trial.was_said("warner: warning: of both"));
+  EXPECT_TRUE(trial.was_said("warner: warning: of facets"));
+  EXPECT_FALSE(trial.was_said("warner: warning: of none"));
 }
 
 TEST(FacetTrial, WhatIsFarOffOrThinOrHasFewQuadsIsNotTaken) {
@@ -142,13 +159,17 @@ TEST(FacetTrial, WhatIsFarOffOrThinOrHasFewQuadsIsNotTaken) {
     EXPECT_EQ(trial.run().mesh.corners, off().mesh.corners);
     EXPECT_TRUE(trial.was_said("warning: of none"));
     EXPECT_FALSE(trial.was_said("warning: of facets"));
+    EXPECT_TRUE(trial.was_said("warner: warning: of both"));
+    EXPECT_FALSE(trial.was_said("warner: warning: of facets"));
   }
 }
 
 TEST(FacetTrial, GoodResultsAreTakenAtOnce) {
   Trial trial(exact(), off());
   EXPECT_EQ(trial.run().mesh.positions, exact().mesh.positions);
-  EXPECT_EQ(trial.listener.said, std::vector<std::string>{"warning: of none"});
+  const std::vector<std::string> said = {"warner: warning: of both", "warner: warning: of none",
+                                         "warning: of none"};
+  EXPECT_EQ(trial.listener.said, said);
 }
 
 // A result that was not taken leaves nothing beside what was.
