@@ -58,8 +58,8 @@ struct Option {
 using OptionList = std::vector<Option>;
 
 /// Holds lengths in model units to their limits, which are shares of the bounding-box diagonal:
-/// what cannot be judged before there is a mesh. \throw UsageError naming the option, the text, the
-/// share it is, and what is allowed
+/// what cannot be judged before there is a mesh.
+/// \throw UsageError naming the option, the text, the share it is, and what is allowed
 void check_lengths(const OptionList& options, double diagonal);
 
 /// Gives an option another value, until it goes out of scope, however that happens.

@@ -28,7 +28,8 @@ void for_blocks(Index n, Work work) {
 }
 
 /// Calls term(i), which does a part of the work and gives two numbers to be summed, for each i
-/// below n. \return the two sums, added up in order over the blocks
+/// below n.
+/// \return the two sums, added up in order over the blocks
 template <class Term>
 std::array<double, 2> sum_over(Index n, Term term) {
   std::vector<std::array<double, 2>> sums(static_cast<std::size_t>((n + kBlock - 1) / kBlock));

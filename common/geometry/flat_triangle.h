@@ -13,7 +13,8 @@ namespace strake {
 inline constexpr double kFlatHeight = 1e-9;
 
 /// Whether a triangle has no area, so that nobody sees it: where another one does not cover the
-/// same place there is nothing. \return true, too, where a coordinate is no finite number
+/// same place there is nothing.
+/// \return true, too, where a coordinate is no finite number
 inline bool is_flat_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double longest2 =
       std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});

@@ -50,7 +50,8 @@ struct NamedFile {
 bool is_same_file(const std::string& a, const std::string& b);
 
 /// Refuses, before any work is done, files to write that are files to read, or each other; and a
-/// report that could not be written. \throw UsageError, InputError naming the file and a remedy
+/// report that could not be written.
+/// \throw UsageError, InputError naming the file and a remedy
 void check_files(const std::vector<NamedFile>& read, const std::string& output,
                  const std::string& report);
 

@@ -54,7 +54,8 @@ class Inputs {
     return std::get<T>(*at(port).value);
   }
   /// The first, for good: moved out where nobody else holds it, so that its memory can be used for
-  /// other things, else copied. \pre has(port), and the port is not asked again
+  /// other things, else copied.
+  /// \pre has(port), and the port is not asked again
   template <class T>
   [[nodiscard]] T take(const std::string& port) {
     const std::shared_ptr<Value> value = std::move(values_.at(port).front().value);

@@ -123,7 +123,8 @@ class Fit {
   }
 
   /// Moves vertices of crossing faces off each other, unless that takes some much farther off the
-  /// surface: faces cross for good where the surface does. \return number of vertices moved
+  /// surface: faces cross for good where the surface does.
+  /// \return number of vertices moved
   Index part() {
     const std::vector<VertexPlaces::State> start = places_.states();
     const double largest = deviation_.largest();

@@ -26,8 +26,9 @@ struct BorderContacts {
 /// stop to the ends of its edge, and of the height of the face there; and of what a vertex is near
 /// to only the nearest, with what is at most 30 times as far away or within 1e-6 of the diagonal.
 /// Inside an edge it may be farther away, up to 1 % of the diagonal, where the curve bulges that
-/// the border follows: by a quarter more at most, and in that direction. \param border  half-edges
-/// of edges with one face, ascending Cost O(F + B log B).
+/// the border follows: by a quarter more at most, and in that direction.
+/// \param border  half-edges of edges with one face, ascending
+/// Cost O(F + B log B).
 BorderContacts find_border_contacts(const Soup& soup, const std::vector<Index>& border,
                                     double diagonal);
 

@@ -12,8 +12,8 @@ namespace strake::import {
 /// than 1e-6 where slivers were found that a union has left, as its seams are full of them.
 /// Triangles lower than 1e-6 of their longest edge are removed by flipping that edge, where the two
 /// new triangles are better shaped, look the same way as the neighbour, and the new edge is not
-/// there yet. What can be removed in neither way stays. \param twin  [3F] opposite half-edges,
-/// kNone on the boundary; not kept up to date
+/// there yet. What can be removed in neither way stays.
+/// \param twin  [3F] opposite half-edges, kNone on the boundary; not kept up to date
 void remove_flat_faces(Soup& soup, std::vector<Index> twin, double diagonal, Repairs& repairs);
 
 /// A surface with less area than this share of the square of its extent has none.

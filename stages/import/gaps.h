@@ -46,12 +46,13 @@ EdgePair edge_pair(const Soup& soup, const std::array<Index, 2>& first,
 /// rounding; tells, too, whether the pair is open.
 bool lie_on_top(const Soup& soup, Index h, Index other, double diagonal, EdgePair& pair);
 
-/// Pairs one after the other, with a vertex each in common at both sides. \return [pairs] the first
-/// pair of the chain
+/// Pairs one after the other, with a vertex each in common at both sides.
+/// \return [pairs] the first pair of the chain
 std::vector<Index> find_chains(const std::vector<EdgePair>& pairs);
 
 /// Chains that are slits: open all along, somewhere by more than 0.002 % of the diagonal, and do
-/// not touch but at their ends. \return [pairs]
+/// not touch but at their ends.
+/// \return [pairs]
 std::vector<std::uint8_t> find_slits(const Soup& soup, const std::vector<EdgePair>& pairs,
                                      const std::vector<Index>& chain, double diagonal);
 

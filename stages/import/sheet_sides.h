@@ -21,7 +21,8 @@ class SheetSides {
     bool is_alike;  ///< they look the same way as they are
   };
   /// Joins sheets, all or none: none to one that has one side only, which is to be cut, and the
-  /// cut would go farther. \return whether they keep two sides
+  /// cut would go farther.
+  /// \return whether they keep two sides
   bool join(const std::vector<Joint>& joints);
 
  private:

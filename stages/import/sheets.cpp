@@ -65,8 +65,8 @@ class Orienter {
   static constexpr std::uint8_t kUnseen = 2;
 
   /// Cuts the edges across which the sides of a piece contradict each other, as it has only one;
-  /// or, where these are no fewer, those along which its faces run the same way already. \return
-  /// whether it was the latter, and no face is to be turned over
+  /// or, where these are no fewer, those along which its faces run the same way already.
+  /// \return whether it was the latter, and no face is to be turned over
   bool cut_as_it_is(const Sheet& sheet) {
     if (sheet.contradictions.empty()) return false;
     const bool as_it_is = sheet.turned.size() <= sheet.contradictions.size();

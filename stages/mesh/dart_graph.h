@@ -36,7 +36,8 @@ class DartGraph {
   }
 
   /// Splits the cell on the left of `a` and `b` by an edge from from(a) to from(b).
-  /// \pre a and b lie on the same cell \return the new dart, from from(a) to from(b); b follows it
+  /// \pre a and b lie on the same cell
+  /// \return the new dart, from from(a) to from(b); b follows it
   Index connect(Index a, Index b);
 
   /// Puts `node` into the edge of `dart`. \return the new dart: the second half of `dart`'s way
@@ -59,8 +60,9 @@ class DartGraph {
   void contract(Index dart);
 
   /// Visits the edges that end in nodes of degree one, and what does once they are gone, each from
-  /// its free end. \param remove  (dart from the node before to the free end) -> whether it removed
-  /// that edge; else the next free end follows
+  /// its free end.
+  /// \param remove  (dart from the node before to the free end) -> whether it removed that edge;
+  /// else the next free end follows
   template <class Remove>
   void take_back_free_ends(const Remove& remove) const;
 

@@ -74,7 +74,8 @@ Overlay build_overlay(const TriMesh& mesh, const LineSet& lines, Observer& obser
 /// features.
 ///
 /// Surface edges are removed as long as that merges two different cells, so all cells stay disks;
-/// what must stay to keep them so are cut lines. \return the number of cut edges left
+/// what must stay to keep them so are cut lines.
+/// \return the number of cut edges left
 Index reduce_to_lines(Overlay& overlay);
 
 }  // namespace strake

@@ -11,7 +11,8 @@ namespace strake {
 /// every other corner: whichever leaves faces nearer to the surface. Neither happens where faces as
 /// large as cells do not follow the cone, as at thorns.
 /// \param may_add  whether cells may get a vertex, which leaves triangles
-/// \pre `quads` was made from `mesh`, and is a manifold \return number of tips that have one
+/// \pre `quads` was made from `mesh`, and is a manifold
+/// \return number of tips that have one
 Index meet_sharp_points(const TriMesh& mesh, bool may_add, QuadMesh& quads);
 
 }  // namespace strake

@@ -58,7 +58,8 @@ bool mark_crossing(const Trial& trial, std::vector<char>& harmful) {
 }
 
 /// The changes that bring faces farther off than those were that they take the place of, and than
-/// is usual, or to cross others. \return [changes] 1: one of them
+/// is usual, or to cross others.
+/// \return [changes] 1: one of them
 std::vector<char> changes_farther_off(const ErrorMap& before, const ErrorMap& after,
                                       const Trial& trial) {
   std::vector<char> harmful(trial.changes.size(), 0);

@@ -40,7 +40,8 @@ bool inlay_left(ToleranceProof& proof, Refinement& refinement, const std::vector
                 Observer& observer, const InlayLimits& limits = kInlaysWithin);
 
 /// Divides the first cells, leaving out those around which faces come to cross that did not before,
-/// or to be concave. \return whether any is left to be divided
+/// or to be concave.
+/// \return whether any is left to be divided
 bool divide_without_faults(Refinement& refinement, const ComparedSurfaces& surfaces,
                            std::vector<Target> targets, std::size_t wanted, double tolerance);
 

@@ -118,8 +118,8 @@ class InlayCutter::Cover {
   }
 
   /// Inside are vertices of the part that are nearer to the patch than to the cells around, of
-  /// those that face the same way. \param margin  distance from the outline, as seen along the
-  /// normal
+  /// those that face the same way.
+  /// \param margin  distance from the outline, as seen along the normal
   void classify(double margin) {
     std::vector<Vec3> normal(part_.positions.size(), Vec3::Zero());
     for (std::size_t f = 0; f < part_.faces.size(); ++f) {

@@ -93,7 +93,8 @@ class Inlays {
   }
 
   /// Gives up the inlays that have faults, unless all together leave fewer faces that cross, and
-  /// none beyond the tolerance. \param before  faces that cross without any
+  /// none beyond the tolerance.
+  /// \param before  faces that cross without any
   void drop_bad_unless_fewer_cross(std::size_t before) {
     const std::vector<Site> all = sites_;
     drop_bad();
@@ -147,7 +148,8 @@ class Inlays {
   }
 
   /// Lets sites grow where faces are at their outline, and by half all around where faces are only
-  /// further inside; adds one around each face that is in none. \return whether any may grow
+  /// further inside; adds one around each face that is in none.
+  /// \return whether any may grow
   bool widen(const Inlaid& inlaid, const std::vector<Index>& faces) {
     std::vector<char> is_bad(sites_.size(), 0);
     std::vector<std::set<Index>> grown(sites_.size());

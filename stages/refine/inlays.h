@@ -35,8 +35,8 @@ bool inlay_beyond(ToleranceProof& proof, const std::vector<Excess>& excess,
 /// Makes faces fewer that cross others although the input does not, where that can be done within
 /// the tolerance.
 /// \param thinned_by  distance by which inlays are thinned out, at most the tolerance
-/// \return [V of `quads`] 1: of a face of an inlay; empty: it is as it was. \pre all of `quads` is
-///         within the tolerance. \post likewise, and as for `inlay_beyond`
+/// \return [V of `quads`] 1: of a face of an inlay; empty: it is as it was.
+/// \pre all of `quads` is within the tolerance. \post likewise, and as for `inlay_beyond`
 std::vector<char> inlay_crossing(ToleranceProof& proof, CrossingPlaces& crossing, double thinned_by,
                                  QuadMesh& quads, const InlayLimits& limits = kInlaysUncrossed);
 

@@ -46,13 +46,15 @@ class Thinning {
 };
 
 /// Takes vertices out of inlays, fewer around faces that are beyond the tolerance or cross others
-/// then; of what is within it, that is taken of which the fewest cross. \pre none is beyond it
+/// then; of what is within it, that is taken of which the fewest cross.
+/// \pre none is beyond it
 /// \param distance  by which to thin out, at most the tolerance
 void thin(const InlayHost& host, double distance, std::vector<Inlay>& inlays);
 
 /// Thins inlays out by the least of some distances after which no faces cross and there are not
 /// many more vertices than without any; else by that after which the fewest cross, or of which
-/// the fewest vertices come. \pre as for `thin`
+/// the fewest vertices come.
+/// \pre as for `thin`
 /// \param distance  the first one; then twice as much, up to the tolerance
 void thin_from(const InlayHost& host, double distance, std::vector<Inlay>& inlays);
 

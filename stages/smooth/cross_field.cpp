@@ -152,7 +152,8 @@ Index solve_reweighted(CrossSystem& system, double inertia, double tolerance,
   return solve(system.matrix, options, solution, space.solver);
 }
 
-/// [W] the crosses. \param iterations  of all solves, are added to
+/// [W] the crosses.
+/// \param iterations  of all solves, are added to
 ///
 /// The linear systems let crosses shrink where nothing holds them: on a disk, to nothing in the
 /// middle, where all of its four singular places then are. Making them one long and letting them

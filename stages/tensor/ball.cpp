@@ -153,8 +153,8 @@ FaceCycles::Tile FaceCycles::tile_of(Index face) const {
 BallWalker::BallWalker(const FaceCycles& cycles)
     : cycles_(cycles), stamp_(static_cast<std::size_t>(cycles.mesh().face_count()), 0) {}
 
-/// Puts a face on the front, unless it is there. \return false where it folds over to another
-/// sheet: the bend towards it does not count
+/// Puts a face on the front, unless it is there.
+/// \return false where it folds over to another sheet: the bend towards it does not count
 bool BallWalker::visit(Index face, const Vec3& normal) {
   if (face == kNone || stamp_[face] == current_) return true;
   if (cycles_.normal(face).dot(normal) <= 0) return false;

@@ -40,7 +40,8 @@ class CellGrid {
 
 /// Cuts the cells in Morton order into `parts` runs of about equal counts, and gives one of them.
 /// Every cell is in one run; runs are empty where there are more parts than cells in use.
-/// \param counts  [kCellCount];  \param part  in [0, parts)
+/// \param counts  [kCellCount];
+/// \param part  in [0, parts)
 /// \return [kCellCount] 1 for the cells of that run
 std::vector<std::uint8_t> cells_of_part(const std::vector<Index>& counts, Index parts, Index part);
 

@@ -157,7 +157,8 @@ std::vector<Cut> number_twins(PartMesh& part, const std::vector<Three>& twins) {
 }
 
 /// Gives the corners of the part's wedges their new numbers, and all others the last one.
-/// \param vertices  [V] kept vertices of the whole mesh;  \param wedge_vertex  [n] in it
+/// \param vertices  [V] kept vertices of the whole mesh;
+/// \param wedge_vertex  [n] in it
 void number_wedges(PartMesh& part, const std::vector<Index>& vertices,
                    const std::vector<Index>& wedge_vertex) {
   const auto others = static_cast<Index>(part.wedge.size());

@@ -24,7 +24,8 @@ LineCount count_places(const TriMesh& mesh, const LineSet& lines);
 
 /// The factor on all distances at which lines would give as many vertices as wanted: crossings are
 /// inverse to its square, places on feature and boundary lines to itself, and corners stay.
-/// \param wanted  positive \return from 1/4 to 4
+/// \param wanted  positive
+/// \return from 1/4 to 4
 double scale_for(const LineCount& count, double wanted);
 
 }  // namespace strake

@@ -154,7 +154,9 @@ class ProximityProbe {
   std::pair<double, double> distances_beside(const ProximityQuery& query, const Vec3& left);
 
   /// The nearest corner of feature and boundary lines within the query's distance that lies ahead,
-  /// in its direction. \param least_cosine  of the angle to it \return kNone where there is none
+  /// in its direction.
+  /// \param least_cosine  of the angle to it
+  /// \return kNone where there is none
   Index corner_ahead(const ProximityQuery& query, double least_cosine);
 
   /// Whether a walk from a point of a face comes to the block of another one within a distance.

@@ -45,10 +45,12 @@ struct Chain {
   /// \throw UsageError where more than one goal is given
   void check_goals() const;
   /// Runs all stages but the last that the goal takes, as often as it takes them. Changes option
-  /// values on the way. \pre the session was provided with "input" and what else is known
+  /// values on the way.
+  /// \pre the session was provided with "input" and what else is known
   /// \return the port of the result
   std::string run(Session& session) const;
-  /// Runs the last one, on the result. \return its report
+  /// Runs the last one, on the result.
+  /// \return its report
   /// \throw AlgorithmError where it finds the goal's tolerance exceeded, which `run` has proven
   const Report& measure(Session& session, const std::string& port) const;
 

@@ -35,7 +35,8 @@ class CountSearch {
   void record(double scale, std::int64_t count);
 
   /// The trial whose ratio to the target is nearest to one: half as many are as far off as twice as
-  /// many. \pre one was recorded
+  /// many.
+  /// \pre one was recorded
   [[nodiscard]] const Trial& best() const;
   [[nodiscard]] std::size_t trial_count() const { return trials_.size(); }
   /// Relative distance of a count from the target.

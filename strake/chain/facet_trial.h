@@ -22,7 +22,8 @@ struct WayToResult {
 /// Makes a result for a count; where it is poor, once more with edges between the facets of the
 /// mesh as features, and takes what is better: nearer by half, or with fewer odd faces, and in
 /// nothing else much worse. What is kept is of the result taken.
-/// \param facet_height  the option of import; \param height  its value for that
+/// \param facet_height  the option of import;
+/// \param height  its value for that
 /// \return the port of the result
 std::string make_with_facets_if_better(Session& session, const WayToResult& way,
                                        const Option& facet_height, const Length& height,

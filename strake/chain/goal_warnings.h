@@ -17,7 +17,8 @@ void warn_of_excess(Session& session);
 /// \param tolerance  model units
 void say_what_is_proven(Session& session, double tolerance);
 
-/// Says where a tolerance that was not proven is missed. \param measures  of evaluate
+/// Says where a tolerance that was not proven is missed.
+/// \param measures  of evaluate
 /// \param tolerance  model units
 void warn_of_distance(Session& session, const Report& measures, double tolerance);
 

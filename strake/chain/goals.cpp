@@ -185,7 +185,8 @@ std::int64_t to_add(std::int64_t given, const LineAim& aim) {
 }
 
 /// Divides the worst cells for what is missing of the count, fits vertices and parts faces that
-/// cross. \pre traced and meshed
+/// cross.
+/// \pre traced and meshed
 Attempt fit_to_count(Session session, const GoalStages& stages, const LineAim& aim,
                      CrossingPlaces& crossing) {
   session.keep(stages.trace);
@@ -260,7 +261,8 @@ using WantCloser = std::function<void(Session&, const std::vector<Vec3>& places,
 
 /// Parts faces that cross, and brings lost details back, by closer lines there; the count is looked
 /// for again each time, from the scale on that `want_closer` leaves.
-/// \param give_up  see `part_faces` \return the best attempt, which is kept
+/// \param give_up  see `part_faces`
+/// \return the best attempt, which is kept
 Attempt mend_by_closer_lines(const Attempt& first, const GoalStages& stages, const LineAim& aim,
                              const WantCloser& want_closer, const GiveUp& give_up,
                              CrossingPlaces& crossing) {

@@ -15,7 +15,8 @@ bool only_quads(const GoalStages& stages);
 
 /// Takes the input's own faces where faces cross, or few of them touch, as long as the count allows
 /// it.
-/// \return places where faces still cross \pre fitted
+/// \return places where faces still cross
+/// \pre fitted
 std::vector<Vec3> replace_crossing(Session& session, const GoalStages& stages, const LineAim& aim,
                                    CrossingPlaces& crossing);
 

@@ -14,7 +14,8 @@
 namespace strake {
 
 /// Whether decimation may not take the place of lines: it knows nothing of what a user says of
-/// directions and of lines. \param lines_only  the option of the chain
+/// directions and of lines.
+/// \param lines_only  the option of the chain
 bool needs_lines(const Session& session, const GoalStages& stages, bool lines_only);
 
 /// The surface decimated to a wanted count, to compare with what lines give. It is made when first

@@ -18,8 +18,9 @@ namespace strake::report {
 inline constexpr std::size_t kMostFaces = 150000;
 
 /// The input surface, with its colours where it has some, and with curvature, directions,
-/// confidence and laid guide lines where there is a field. \param field  of this mesh; nullptr: the
-/// members "curvature", "directions", "guides" are left out
+/// confidence and laid guide lines where there is a field.
+/// \param field  of this mesh; nullptr: the members "curvature", "directions", "guides" are left
+/// out
 nlohmann::ordered_json surface_scene(const TriMesh& mesh, const PrincipalField* field,
                                      std::size_t most_faces, Blocks& blocks);
 

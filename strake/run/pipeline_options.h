@@ -28,8 +28,9 @@ struct PipelineOptions {
   [[nodiscard]] Selection selection(const Description& description) const;
 };
 
-/// \throw UsageError where there is no such rule \param option  that named it; \param name  "":
-/// none
+/// \throw UsageError where there is no such rule
+/// \param option  that named it;
+/// \param name  "": none
 void check_rule_name(const std::string& name, const Description& description,
                      const std::string& option);
 

@@ -236,7 +236,8 @@ int RunCommand::run_on_cluster(const Description& description, const Plan& plan,
   return conclude(folder, orders, "see the logs in " + (folder.path() / "logs").string());
 }
 
-/// Prints what became of the steps. \return the exit code of the first that failed
+/// Prints what became of the steps.
+/// \return the exit code of the first that failed
 /// \param complaint  what there is to say where steps were not run though none has failed
 int RunCommand::conclude(const RunFolder& folder, const std::vector<StepOrder>& orders,
                          const std::string& complaint) const {

@@ -37,8 +37,8 @@ struct Corner {
 };
 using Piece = std::array<Corner, 3>;
 
-/// The triangles of a surface that nobody sees. \return [triangles] 1: without area; empty where
-/// none or all are
+/// The triangles of a surface that nobody sees.
+/// \return [triangles] 1: without area; empty where none or all are
 std::vector<char> flat_triangles(const SurfaceDistance& surface) {
   std::vector<char> is_flat(surface.triangles().size());
   const std::vector<Vec3>& p = surface.positions();

@@ -62,7 +62,9 @@ class ToleranceProof {
 
   /// The faces of a result that may be beyond the tolerance for whoever measures it again, as
   /// rounding alone decides how they are cut into triangles (see `other_triangulations`), and those
-  /// beside them of which that is so. \pre `check` finds nothing \return ascending
+  /// beside them of which that is so.
+  /// \pre `check` finds nothing
+  /// \return ascending
   std::vector<Index> cells_in_doubt(const ComparedSurfaces& surfaces);
 
  private:

@@ -97,8 +97,8 @@ class Search {
     }
   }
 
-  /// Joins the face beyond the side from a to b to a patch. \return whether it is a disk then,
-  /// without a vertex inside
+  /// Joins the face beyond the side from a to b to a patch.
+  /// \return whether it is a disk then, without a vertex inside
   [[nodiscard]] bool join(Patch& patch, Index next, Index a, Index b) const {
     const std::span<const Index> face = mesh_.face(next);
     auto at = std::ranges::find(patch.outline, a);

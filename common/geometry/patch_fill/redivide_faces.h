@@ -24,7 +24,8 @@ struct Redivision {
 /// than 60; no vertex inside is left with two edges, and no two vertices have two edges.
 /// \param may_remove  whether the edge between two vertices may go
 /// \param refused     outlines that are to stay as they are
-/// \return no two of them with a vertex in common, the best first. \pre an oriented 2-manifold
+/// \return no two of them with a vertex in common, the best first.
+/// \pre an oriented 2-manifold
 std::vector<Redivision> find_redivisions(const PolyMesh& mesh,
                                          const std::function<bool(Index, Index)>& may_remove,
                                          const std::set<std::vector<Index>>& refused);

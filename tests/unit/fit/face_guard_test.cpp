@@ -23,8 +23,8 @@ TriMesh square() {
   return mesh;
 }
 
-/// A quad on it whose first vertex lies 0.4 along the first side. \param off  of the second vertex,
-/// from the corner where that side ends
+/// A quad on it whose first vertex lies 0.4 along the first side.
+/// \param off  of the second vertex, from the corner where that side ends
 QuadMesh quad_on_square(double off) {
   QuadMesh quads;
   quads.mesh.positions = {Vec3(0.4, 0, 0), Vec3(1, off, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)};

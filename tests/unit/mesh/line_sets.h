@@ -10,8 +10,8 @@
 
 namespace strake {
 
-/// Appends a line through faces. \param faces of the chords: one fewer than points, or as many
-/// where the line is closed
+/// Appends a line through faces.
+/// \param faces of the chords: one fewer than points, or as many where the line is closed
 void add_line(LineSet& lines, const std::vector<LinePoint>& points, const std::vector<Index>& faces,
               LineFamily family = LineFamily::minimum);
 

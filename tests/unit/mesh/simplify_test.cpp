@@ -101,7 +101,8 @@ TEST(Simplify, KeepsTheTopologyWhateverIsTooShort) {
 }
 
 /// Where the barrier nodes inside a strip are that a feature enters from the left, and that lines
-/// cross at 2 and 4. \param end  of the feature, beyond 4
+/// cross at 2 and 4.
+/// \param end  of the feature, beyond 4
 std::set<double> nodes_on_feature(double end) {
   const Grid grid{{0, 1, 2, 3, 4, end, 8, 9}, steps(5)};
   TriMesh mesh = grid_mesh(grid);

@@ -64,7 +64,8 @@ TEST(Refine, KeepsTheToleranceOnTerrain) {
 }
 
 /// A grid with two cells as a triangle and a pentagon, between which lies a ridge, and its
-/// triangles as the surface. \param shift  of the pentagon's corner beyond the ridge, away from it
+/// triangles as the surface.
+/// \param shift  of the pentagon's corner beyond the ridge, away from it
 Case odd_pair(double shift) {
   const Case c = grid(4, 4, [](double, double) { return 0.0; });
   PolyMesh cut;

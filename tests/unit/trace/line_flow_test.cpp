@@ -37,7 +37,8 @@ Spacing followed(const TriMesh& mesh, const PrincipalField& field, Spacing spaci
   return spacing;
 }
 
-/// Lines along x on [-1, 1]^2 whose distances swing by a hundredth. \param direction  of the wave
+/// Lines along x on [-1, 1]^2 whose distances swing by a hundredth.
+/// \param direction  of the wave
 /// \return what is left of that wave, from 0 to 1
 double kept_of_wave(const Vec3& direction, int half_waves) {
   const TriMesh mesh = sample_mesh(SampleKind::plane, 20000);

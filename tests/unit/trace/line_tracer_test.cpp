@@ -318,7 +318,8 @@ TEST(LineTracer, ClosesRingsAroundThinTubes) {
 class FeaturesInARow {
  public:
   /// \param roughness  by which vertices are off a grid, in its steps; at 0 the gap has edges along
-  /// it \param turn  of the axis, radians: else what lies on an edge does so exactly
+  /// it
+  /// \param turn  of the axis, radians: else what lies on an edge does so exactly
   FeaturesInARow(double half_gap, double roughness, double turn) {
     constexpr Index kSide = 21;
     constexpr double kStep = 0.1;
