@@ -6,9 +6,8 @@
 
 #include "stages/import/soup.h"
 
+/// What tells gaps between borders from what is meant to be open.
 namespace strake::import {
-
-// What tells gaps between borders from what is meant to be open.
 
 /// Shares of the diagonal: what is apart by less coincides; what coordinates in single precision
 /// are off by; the widest gap that is sewn.

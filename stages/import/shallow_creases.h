@@ -4,6 +4,7 @@
 
 #include "common/core/tri_mesh.h"
 
+/// Edges that are bent less than creases, and are features where they stand alone.
 namespace strake::import {
 
 /// Whether an edge that is bent by `bend` stands alone, as those of a chamfer or of a roof do:

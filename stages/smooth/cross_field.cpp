@@ -9,7 +9,7 @@
 #include "common/geometry/border_course.h"
 #include "common/geometry/frames.h"
 #include "common/geometry/mesh_measures.h"
-#include "stages/smooth/conjugate_gradients.h"
+#include "stages/smooth/hermitian_matrix.h"
 
 namespace strake {
 namespace {

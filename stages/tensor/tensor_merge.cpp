@@ -4,6 +4,7 @@
 #include "common/core/error.h"
 #include "stages/tensor/tensor_part.h"
 
+/// The field of a mesh from those of its parts.
 namespace strake {
 namespace {
 

@@ -11,6 +11,7 @@
 #include "common/geometry/mesh_measures.h"
 #include "stages/trace/spacing.h"
 
+/// What lines look at: the surface and its directions, face by face.
 namespace strake {
 
 /// Everything a line needs to know about the surface; shared, immutable.

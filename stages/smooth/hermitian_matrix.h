@@ -6,6 +6,7 @@
 #include "common/core/types.h"
 #include "common/geometry/conjugate_gradients.h"
 
+/// The linear system of the cross field, whose unknowns are complex numbers, and its solution.
 namespace strake {
 
 /// A Hermitian, positive definite matrix in compressed rows, its real diagonal apart.

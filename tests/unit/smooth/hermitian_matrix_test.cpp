@@ -1,4 +1,4 @@
-#include "stages/smooth/conjugate_gradients.h"
+#include "stages/smooth/hermitian_matrix.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
