@@ -161,6 +161,12 @@ Camera camera_on(const Scene& scene, const View& view, const DrawOptions& pictur
   return Camera(used, view, picture.width, picture.height);
 }
 
+/// The view from the command line, in the scene's frame.
+View view_in(const Scene& scene, View view) {
+  if (view.target) view.target = scene.place(*view.target);
+  return view;
+}
+
 constexpr double kReportFieldOfView = 32;  // of viewer/src/stage.js
 
 void draw_run(const Arguments& arguments) {
@@ -173,7 +179,7 @@ void draw_run(const Arguments& arguments) {
   const auto& from = arguments.shown.camera;
   const Camera camera =
       from ? Camera(from->first, from->second, kReportFieldOfView, picture.width, picture.height)
-           : camera_on(scene, arguments.view, picture);
+           : camera_on(scene, view_in(scene, arguments.view), picture);
   const double radius = arguments.line_width / 2 * camera.pixel_size(Vec3::Zero());
   const std::vector<std::string> groups = add_lines(shown.lines, radius, scene);
   scene.commit();
@@ -187,8 +193,7 @@ void draw_file(const Arguments& arguments) {
     write_stderr("strake-render: " + warning + "\n");
   }
   Scene scene(std::move(mesh), arguments.mesh, arguments.flat);
-  View view = arguments.view;
-  if (view.target) view.target = scene.place(*view.target);
+  const View view = view_in(scene, arguments.view);
   const Camera camera = camera_on(scene, view, arguments.draw);
   const double radius =
       arguments.line_width / 2 * camera.pixel_size(view.target.value_or(Vec3::Zero()));

@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+
+#include <cstdio>
 #include <filesystem>
 #include <set>
 
@@ -48,6 +51,18 @@ TEST_F(RenderRun, DrawsEachLayerOfARunAndAgreesWithTheAddressOfAView) {
             picture("--view '#camera=0.5,0.4,0.9,0,0,0'"));
   EXPECT_NE(picture("--view '#camera=0.5,0.4,0.9,0,0,0'"),
             picture("--view '#camera=-0.5,0.4,0.9,0,0,0'"));
+
+  // The target is a place of the model, as in pictures of files.
+  double x = 0;
+  double y = 0;
+  double z = 0;
+  const std::string result = bytes("part.obj");
+  ASSERT_EQ(std::sscanf(result.c_str() + result.find("\nv ") + 3, "%lf %lf %lf", &x, &y, &z), 3);
+  const auto close = [&](double to_x) {
+    return picture(fmt::format("--zoom 20 --target={},{},{}", to_x, y, z));
+  };
+  EXPECT_EQ(close(x + 900), close(x + 999)) << "there is something to see";
+  EXPECT_NE(close(x), close(x + 999));
 
   for (const std::string wrong :
        {"--colour k_max", "--surface moon", "--layers edges+moon", "--section w,1",
