@@ -69,20 +69,20 @@ void warn_of_crossing(Session& session, const std::string& port) {
 }  // namespace
 
 Chain::Chain()
-    : import(import_stage()),
-      coarsen(coarsen_stage()),
-      tensor(tensor_stage()),
-      smooth(smooth_stage()),
-      trace(trace_stage()),
-      mesh(mesh_stage()),
-      lift(lift_stage()),
-      prolong(prolong_stage()),
-      fit(fit_stage()),
-      size(size_stage()),
-      refine(refine_stage()),
-      uncross(refine_uncross_stage()),
-      worst(refine_worst_stage()),
-      decimate(decimate_stage()),
+    : GoalStages{.coarsen = coarsen_stage(),
+                 .tensor = tensor_stage(),
+                 .smooth = smooth_stage(),
+                 .trace = trace_stage(),
+                 .mesh = mesh_stage(),
+                 .lift = lift_stage(),
+                 .prolong = prolong_stage(),
+                 .fit = fit_stage(),
+                 .size = size_stage(),
+                 .refine = refine_stage(),
+                 .uncross = refine_uncross_stage(),
+                 .worst = refine_worst_stage(),
+                 .decimate = decimate_stage()},
+      import(import_stage()),
       evaluate(evaluate_stage()) {}
 
 OptionList Chain::declare(std::optional<std::int64_t>& rounds, bool& lines_only,
@@ -138,30 +138,17 @@ void Chain::check_goals() const {
 }
 
 std::string Chain::reach_goal(Session& session) const {
-  const GoalStages goal_stages{.coarsen = coarsen,
-                               .tensor = tensor,
-                               .smooth = smooth,
-                               .trace = trace,
-                               .mesh = mesh,
-                               .lift = lift,
-                               .prolong = prolong,
-                               .fit = fit,
-                               .size = size,
-                               .refine = refine,
-                               .uncross = uncross,
-                               .worst = worst,
-                               .decimate = decimate};
   // Counts are met by what faces are made of the lines, not by the lines themselves.
   const Option& scale = trace.option("spacing-scale");
   std::optional<OtherValue> once;
   if (const std::optional<WantedCount> wanted = wanted_count()) {
     if (scale.value().empty()) once.emplace(scale, "1");
-    return meet_count(session, goal_stages, wanted->counted, wanted->count, feedback_rounds,
-                      lines_only, working_ratio);
+    return meet_count(session, *this, wanted->counted, wanted->count, feedback_rounds, lines_only,
+                      working_ratio);
   }
   const std::string tolerance = trace.option("tolerance").value();
-  if (tolerance.empty()) return follow_spacing(session, goal_stages, feedback_rounds);
-  return meet_tolerance(session, goal_stages, tolerance, feedback_rounds, lines_only);
+  if (tolerance.empty()) return follow_spacing(session, *this, feedback_rounds);
+  return meet_tolerance(session, *this, tolerance, feedback_rounds, lines_only);
 }
 
 void Chain::keep_ridges() const {

@@ -8,28 +8,16 @@
 #include "common/core/options.h"
 #include "common/core/wanted_count.h"
 #include "common/stage/stage.h"
+#include "strake/chain/goal_stages.h"
 #include "strake/chain/session.h"
 
 namespace strake {
 
 /// The standard chain from a mesh as read to a measured result. Copies share option values.
-struct Chain {
+struct Chain : GoalStages {
   Chain();
 
   Stage import;
-  Stage coarsen;
-  Stage tensor;
-  Stage smooth;
-  Stage trace;
-  Stage mesh;
-  Stage lift;
-  Stage prolong;
-  Stage fit;
-  Stage size;
-  Stage refine;
-  Stage uncross;
-  Stage worst;
-  Stage decimate;
   Stage evaluate;
 
   std::optional<std::int64_t> feedback_rounds;  ///< as the goals take them
@@ -42,7 +30,8 @@ struct Chain {
 
   /// All stages, in the order of their first run.
   [[nodiscard]] std::vector<const Stage*> stages() const;
-  /// \throw UsageError where more than one goal is given
+  /// \throw UsageError where more than one goal is given, or an option of a stage that follows from
+  /// the goal
   void check_goals() const;
   /// Runs all stages but the last that the goal takes, as often as it takes them. Changes option
   /// values on the way.
