@@ -21,21 +21,10 @@ std::optional<Length> parse_length(std::string_view text) {
   return Length{relative ? *value / 100 : *value, relative};
 }
 
-/// A limit as people write it: the shortest text of a hundred million is 1e+08.
-std::string limit_text(double limit) {
-  constexpr double kMostDigits = 1e15;
-  const bool is_whole = std::floor(limit) == limit && std::abs(limit) < kMostDigits;
-  return is_whole ? std::to_string(static_cast<std::int64_t>(limit)) : number_text(limit);
-}
-
 /// "between 0 and 180 deg", "at least 1", or "" where every number is allowed.
 std::string range_text(const Option& option) {
-  const bool is_length = std::holds_alternative<Length*>(option.target) ||
-                         std::holds_alternative<std::optional<Length>*>(option.target);
-  const std::string unit = option.unit.empty() || is_length ? "" : " " + option.unit;
-  const auto limit = [&](double value) {
-    return is_length ? Length{value, true}.to_string() : limit_text(value);
-  };
+  const std::string unit = option.unit.empty() || takes_length(option) ? "" : " " + option.unit;
+  const auto limit = [&](double value) { return limit_text(option, value); };
   const bool has_min = std::isfinite(option.min);
   const bool has_max = std::isfinite(option.max);
   if (has_min && has_max)
@@ -150,6 +139,18 @@ std::string text_of(const std::optional<T>& value) {
 }
 
 }  // namespace
+
+bool takes_length(const Option& option) {
+  return std::holds_alternative<Length*>(option.target) ||
+         std::holds_alternative<std::optional<Length>*>(option.target);
+}
+
+std::string limit_text(const Option& option, double limit) {
+  if (takes_length(option)) return Length{limit, true}.to_string();
+  constexpr double kMostDigits = 1e15;  // the shortest text of a hundred million is 1e+08
+  const bool is_whole = std::floor(limit) == limit && std::abs(limit) < kMostDigits;
+  return is_whole ? std::to_string(static_cast<std::int64_t>(limit)) : number_text(limit);
+}
 
 std::string Length::to_string() const {
   if (!relative) return number_text(value);

@@ -55,6 +55,12 @@ struct Option {
   void parse_into(std::string_view text) const;
 };
 
+/// Whether it is a length, with or without a default.
+bool takes_length(const Option& option);
+
+/// A limit of an option as people write it: a share for a length, digits without exponent.
+std::string limit_text(const Option& option, double limit);
+
 using OptionList = std::vector<Option>;
 
 /// Holds lengths in model units to their limits, which are shares of the bounding-box diagonal:

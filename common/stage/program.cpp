@@ -49,11 +49,7 @@ std::string type_text(const Option& option) {
 }
 
 std::string help_text(const Option& option) {
-  const bool is_length = std::holds_alternative<Length*>(option.target) ||
-                         std::holds_alternative<std::optional<Length>*>(option.target);
-  const auto limit = [&](double value) {
-    return is_length ? fmt::format("{:g}%", 100 * value) : fmt::format("{}", value);
-  };
+  const auto limit = [&](double value) { return limit_text(option, value); };
   std::string text = option.help;
   if (std::isfinite(option.min) && std::isfinite(option.max)) {
     text += fmt::format(" From {} to {}.", limit(option.min), limit(option.max));

@@ -30,7 +30,7 @@ Json value_schema(const Option& option) {
   if (std::holds_alternative<bool*>(option.target)) return {{"type", "boolean"}};
   if (kIsOneOf<std::int64_t>(option.target)) return number("integer", option);
   if (kIsOneOf<double>(option.target)) return number("number", option);
-  if (kIsOneOf<Length>(option.target)) {
+  if (takes_length(option)) {
     return {{"anyOf", {{{"type", "number"}}, {{"type", "string"}, {"pattern", "^[^%]+%?$"}}}}};
   }
   return {{"type", "string"}};
