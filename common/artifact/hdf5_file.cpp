@@ -319,22 +319,27 @@ std::int64_t Reader::integer_attribute(const std::string& name) const {
   return value;
 }
 
+std::vector<std::string> Reader::link_names(std::int64_t opened, const std::string& group) const {
+  // In the order of the file: to sort links itself, HDF5 1.10 makes a table of them, and frees what
+  // it never filled in where one of them is damaged.
+  const auto keep = [](hid_t, const char* name, const H5L_info_t*, void* names) -> herr_t {
+    static_cast<std::vector<std::string>*>(names)->emplace_back(name);
+    return 0;
+  };
+  std::vector<std::string> names;
+  if (H5Literate(opened, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, keep, &names) < 0) {
+    fail(group, "cannot be read");
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
 std::vector<DatasetInfo> Reader::list(const std::string& group) const {
   if (!is_inside(id_, group)) refuse(group, "is missing or elsewhere");
   const Handle opened(H5Gopen2(id_, group.c_str(), H5P_DEFAULT), H5Gclose);
-  H5G_info_t info;
-  if (!opened.valid() || H5Gget_info(opened.id(), &info) < 0) fail(group, "cannot be read");
+  if (!opened.valid()) fail(group, "cannot be read");
   std::vector<DatasetInfo> datasets;
-  for (hsize_t i = 0; i < info.nlinks; ++i) {
-    const auto name_at = [&](char* text, std::size_t size) {
-      return H5Lget_name_by_idx(opened.id(), ".", H5_INDEX_NAME, H5_ITER_INC, i, text, size,
-                                H5P_DEFAULT);
-    };
-    const ssize_t length = name_at(nullptr, 0);
-    if (length < 0) fail(group, "cannot be read");
-    std::string name(static_cast<std::size_t>(length) + 1, '\0');
-    name_at(name.data(), name.size());
-    name.pop_back();
+  for (const std::string& name : link_names(opened.id(), group)) {
     const Handle dataset = open_dataset(opened.id(), name);
     if (!dataset.valid()) continue;
     const auto [rank, sizes] = dimensions(dataset.id());

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <hdf5.h>
+#include <malloc.h>
 
 #include <functional>
 #include <random>
@@ -92,6 +93,36 @@ TEST_P(Damage, FlippedBitsNeverChangeWhatIsRead) {
   }
   // Most of a file is data under checksums; of sizes, most is the surface that only viewers read.
   EXPECT_GT(refused, GetParam() == ArtifactKind::size ? kFlips / 10 : kFlips / 2);
+}
+
+/// Where a group's links are damaged, HDF5 must not free what it never set.
+TEST_P(Damage, FlippedBitsInListsOfDatasetsDoNotCrash) {
+  write(file("a.hdf"), GetParam(), make_values(), make_provenance());
+  const std::string bytes = bytes_of(file("a.hdf"));
+  ::mallopt(M_PERTURB, 0x5a);  // no memory is zero by chance
+  int refused = 0;
+  int tried = 0;
+  // Blocks of HDF5 that hold names and the index of them.
+  for (const std::string block : {"BTHD", "BTLF", "FRHP", "FHDB"}) {
+    for (std::size_t at = bytes.find(block); at != std::string::npos;
+         at = bytes.find(block, at + 1)) {
+      for (const std::size_t behind : {5, 8, 11, 14, 17}) {
+        std::string damaged = bytes;
+        damaged.at(at + behind) = static_cast<char>(damaged.at(at + behind) ^ 4);
+        put_bytes(file("a.hdf"), damaged);
+        H5garbage_collect();
+        ++tried;
+        try {
+          read_artifact_info(file("a.hdf"));
+          check_picture(file("a.hdf"));
+        } catch (const InputError&) {
+          ++refused;
+        }
+      }
+    }
+  }
+  ::mallopt(M_PERTURB, 0);
+  EXPECT_EQ(refused, tried);
 }
 
 TEST_P(Damage, OtherKindsAreRefusedByName) {
