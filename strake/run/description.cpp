@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "common/core/error.h"
+#include "common/core/text.h"
 #include "strake/run/rules.h"
 #include "strake/run/slurm_options.h"
 #include "strake/run/stage_catalog.h"
@@ -74,6 +75,11 @@ class Reader {
       : top_(YamlView::load(file).fields("a pipeline", kTopKeys)) {
     description_.file = fs::absolute(file).lexically_normal();
     folder_ = description_.file.parent_path();
+    if (!has_control_characters(folder_.string())) return;
+    throw UsageError(
+        fmt::format("'{}': a pipeline cannot be run in a folder with line breaks or "
+                    "other control characters in its path; rename it",
+                    on_one_line(folder_.string())));
   }
 
   Description read() {
@@ -104,6 +110,9 @@ class Reader {
     if (!top_.count("store")) return;
     const YamlView& view = top_.at("store");
     description_.store = (folder_ / view.text("a folder") / "").lexically_normal().parent_path();
+    if (has_control_characters(description_.store.string())) {
+      view.fail("the path of a store cannot have line breaks or other control characters in it");
+    }
     if (description_.store != folder_) return;
     view.fail("the folder of the pipeline file cannot be the store; name one for results alone");
   }

@@ -191,6 +191,7 @@ int RunCommand::run_locally(const Description& description, const Plan& plan,
 
 int RunCommand::run_on_cluster(const Description& description, const Plan& plan,
                                const std::vector<StepState>& states) const {
+  check_slurm_takes(plan.store);
   std::vector<std::string> options = description.sbatch_options;
   for (const std::string& text : sbatch) {
     options.push_back(checked_sbatch_options(text, {"--sbatch " + text}));
