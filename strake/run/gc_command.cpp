@@ -48,7 +48,8 @@ std::int64_t now_ns() {
 double amount(const std::string& text, const std::optional<double>& value, const char* option,
               const char* example) {
   if (value) return *value;
-  throw UsageError(fmt::format("{} '{}' is none; write e.g. {}", option, text, example));
+  throw UsageError(
+      fmt::format("{} '{}' is none; write e.g. {}, a number and a unit", option, text, example));
 }
 
 /// Folders of what the pipeline makes as it stands now. Where that is not known yet, since

@@ -86,7 +86,8 @@ std::int64_t RunCommand::wanted_memory() const {
   if (memory.empty()) return machine_memory();
   const std::optional<double> bytes = parse_bytes(memory);
   if (!bytes || *bytes < 1) {
-    throw UsageError("--memory '" + memory + "' is no amount of memory; write e.g. 16GB");
+    throw UsageError("--memory '" + memory +
+                     "' is no amount of memory; write e.g. 16GB, a number and a unit");
   }
   return static_cast<std::int64_t>(*bytes);
 }

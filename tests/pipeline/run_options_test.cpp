@@ -64,6 +64,7 @@ TEST_F(RunOptions, UntilAndFrom) {
   must_fail(kUsage, "strake run --set trace.seed", "trace.seed=7");
   must_fail(kUsage, "strake run tours", "did you mean 'torus'");
   must_fail(kUsage, "strake run --memory lots", "16GB");
+  must_fail(kUsage, "strake run --memory 16", "16GB, a number and a unit");
   must_fail(kUsage, "strake run -n --memory lots", "16GB");
   must_fail(kUsage, "strake run --set trace.sed=3", "error: --set trace.sed=3: stage 'trace'");
   must_fail(kUsage, "strake run --set trace.faces=9 --set trace.vertices=9", "exclude each other");
@@ -322,6 +323,8 @@ TEST_F(Collection, WhatWasUsedLastStays) {
   must_fail(kUsage, "strake gc", "say what may go");
   must_fail(kUsage, "strake gc --unreachable torus", "torus");  // or all other models would go
   must_fail(kUsage, "strake gc --max-size lots", "10GB");
+  must_fail(kUsage, "strake gc --max-size 10", "10GB, a number and a unit");
+  must_fail(kUsage, "strake gc --older-than 30", "30d, a number and a unit");
 }
 
 TEST_F(Collection, FoldersOfRunsThatBeginStay) {
