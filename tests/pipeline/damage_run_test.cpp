@@ -44,6 +44,13 @@ class Damage : public PipelineTest {
     EXPECT_EQ(must("strake run"), "0 steps run, 8 in the store\n");
   }
 
+  /// A program of a stage that runs this first.
+  void put_before(const std::string& stage, const std::string& commands) {
+    const std::string program = "bin/strake-" + stage;
+    fs::remove(file(program));
+    put(program, "#!/bin/sh\n" + commands + "\nexec " STRAKE_BIN "/strake-" + stage + " \"$@\"\n");
+    fs::permissions(file(program), fs::perms::owner_all);
+  }
   /// All programs in the folder "bin", to put others in place of some.
   void copy_programs() {
     fs::create_directory(file("bin"));
@@ -178,11 +185,8 @@ TEST_F(Damage, WhileTheConsumerRuns) {
   copy_programs();
   for (const char* damage :
        {"printf x | dd of=\"$2\" bs=1 seek=999 conv=notrunc", "rm -r \"${2%/*}\"", ": > \"$2\""}) {
-    fs::remove(file("bin/strake-trace"));
     const std::string once = file("once").string();
-    put("bin/strake-trace", "#!/bin/sh\nif [ ! -e " + once + " ]; then : > " + once + "; " +
-                                damage + " 2>&-; fi\nexec " STRAKE_BIN "/strake-trace \"$@\"\n");
-    fs::permissions(file("bin/strake-trace"), fs::perms::owner_all);
+    put_before("trace", "if [ ! -e " + once + " ]; then : > " + once + "; " + damage + " 2>&-; fi");
     fs::remove_all(artifact("torus/trace-", "lines.hdf").parent_path());
     const Outcome outcome = shell("bin/strake run");
     EXPECT_EQ(outcome.exit_code, 0) << damage << outcome.err;
@@ -192,6 +196,27 @@ TEST_F(Damage, WhileTheConsumerRuns) {
     EXPECT_EQ(artifacts(), whole_);
     fs::remove(file("once"));
   }
+}
+
+/// As where `strake gc` is run again and again: what a step needs goes, but the run gets on.
+TEST_F(Damage, InputsMayGoAsOftenAsTheRunGetsOn) {
+  copy_programs();
+  for (const std::string stage : {"tensor", "smooth", "trace", "mesh", "evaluate"}) {
+    const std::string once = file("once-" + stage).string();
+    put_before(stage, "if [ ! -e " + once + " ]; then : > " + once + "; rm -r \"${1%/*}\"; fi");
+  }
+  fs::remove_all(file("store"));
+  const Outcome outcome = shell("bin/strake run");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(artifacts(), whole_);
+}
+
+TEST_F(Damage, ARunThatDoesNotGetOnEnds) {
+  copy_programs();
+  put_before("mesh", "rm -r \"${1%/*}\"");
+  const Outcome outcome = shell("bin/strake run --set trace.seed=7");
+  EXPECT_EQ(outcome.exit_code, kBadInput) << outcome.err;
+  EXPECT_NE(outcome.err.find("keep being changed or damaged"), std::string::npos) << outcome.err;
 }
 
 }  // namespace
