@@ -42,6 +42,17 @@ std::int64_t machine_memory() {
                                    info.mem_unit);
 }
 
+/// Has a folder that results go to, or are found in, say that it is a store.
+void mark_as_store(const Store& store, bool is_written, bool has_results) {
+  if (is_written) return store.prepare();
+  if (!has_results) return;
+  try {
+    store.prepare();
+  } catch (const InputError&) {
+    return;  // one that is there to be read only stays as it is
+  }
+}
+
 std::int64_t processors() { return std::max(1u, std::thread::hardware_concurrency()); }
 
 }  // namespace
@@ -318,8 +329,8 @@ int RunCommand::run() {
       if (states[s].entry) store.touch(entry_name(plan.steps[s], states[s]));
     }
     Round round;
+    mark_as_store(store, stale > 0, cached > 0);
     if (stale > 0) {
-      store.prepare();
       round = engine == kSlurm ? run_on_cluster(description, plan, states)
                                : run_locally(description, plan, states);
     }

@@ -425,6 +425,32 @@ TEST_F(Collection, NothingGoesFromAFolderThatIsNoStore) {
   EXPECT_TRUE(fs::exists(file("photos/2024/summer-0123456789abcdef")));
 }
 
+/// As from cron, for a store that several pipelines share.
+TEST_F(Collection, AStoreThatIsNamedNeedsNoPipeline) {
+  fs::remove(file("pipeline.yaml"));
+  const std::string said = must("strake gc --store store --older-than 1h");
+  EXPECT_NE(said.find("10 results left"), std::string::npos) << said;
+  must_fail(kBadInput, "strake gc --store stroe --older-than 1h",
+            "stroe': there is no such folder");
+  must_fail(kUsage, "strake gc --store 'a\nb' --older-than 1h", "control characters");
+  must_fail(kBadInput, "strake gc --store store --unreachable", "pipeline.yaml");
+  must_fail(kBadInput, "strake gc --older-than 1h", "pipeline.yaml");
+  EXPECT_EQ(entries().size(), 10u);
+  must("strake gc --store store --max-size 0");
+  EXPECT_EQ(entries().size(), 0u);
+}
+
+TEST_F(Collection, AStoreWithoutItsFileGetsOneWhereResultsAreFound) {
+  fs::remove(file("store/strake-store.json"));
+  must_fail(kBadInput, "strake gc --max-size 0", "'strake run' find results there");
+  must("strake run --dry-run");
+  EXPECT_FALSE(fs::exists(file("store/strake-store.json")));
+  EXPECT_EQ(must("strake run"), "0 steps run, 7 in the store\n");
+  must("strake gc --older-than 1h");
+  put("store/strake-store.json", "");
+  must_fail(kBadInput, "strake run", "strake-store.json' is damaged");
+}
+
 TEST_F(Collection, WhatIsBeingMadeStays) {
   const std::string entry = entries().front();
   const FolderLock maker(file("store") / entry);
