@@ -86,7 +86,14 @@ class Planner {
       for (const Variant& variant : description_.variants) {
         const bool applies = std::find(model.variants.begin(), model.variants.end(),
                                        variant.name) != model.variants.end();
-        if (applies && is_wanted(model.name, variant.name)) add(m, variant);
+        if (!applies || !is_wanted(model.name, variant.name)) continue;
+        if (model.missing.empty()) {
+          add(m, variant);
+        } else if (selection_.leave_out_missing) {
+          plan_.left_out[model.name] = model.missing;
+        } else {
+          model.missing_place.fail(fmt::format("there is no file '{}'", model.missing.string()));
+        }
       }
     }
     name_steps();

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,6 +46,8 @@ struct Step {
 struct Plan {
   std::filesystem::path store;
   std::vector<Step> steps;
+  /// Models without steps, since a file of theirs is not there, and that file.
+  std::map<std::string, std::filesystem::path> left_out;
 };
 
 /// What the user wants of a description.
@@ -52,10 +55,11 @@ struct Selection {
   std::vector<std::string> targets;  ///< "MODEL" or "MODEL/VARIANT"; empty: everything
   std::optional<std::string> until;  ///< last rule of interest
   std::vector<Setting> settings;     ///< that go before all others
+  bool leave_out_missing = false;    ///< models that lack a file, instead of refusing them
 };
 
 /// Unfolds models, variants and rules. Reads no artifact.
-/// \throw UsageError where a target or rule does not exist
+/// \throw UsageError where a target or rule does not exist, or a file of a model that is wanted
 Plan make_plan(const Description& description, const Selection& selection);
 
 /// Those of the settings that no step of the plan has, as their stages come after the last one.

@@ -21,6 +21,7 @@ const std::vector<std::string> kResourceKeys = {"memory",        "memory-per-fac
                                                 "time-per-face", "threads",         "parts"};
 constexpr const char* kProgramPrefix = "strake-";
 constexpr std::int64_t kMostParts = 4096;
+constexpr std::size_t kLongestName = 100;
 
 /// The artifact that a port takes unless the file says otherwise.
 std::string usual_source(const std::string& port) {
@@ -296,19 +297,21 @@ void check_together(const std::vector<Setting>& settings) {
   }
 }
 
-void check_name(std::string_view name, const Place& place, std::string_view remedy) {
+bool can_be_name(std::string_view name) {
   const auto is_allowed = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
            c == '_' || c == '.' || c == '+';
   };
-  constexpr std::size_t kLongest = 100;
-  if (name.empty() || name.size() > kLongest || name.front() == '.' || name.front() == '-' ||
-      !std::all_of(name.begin(), name.end(), is_allowed)) {
-    place.fail(
-        fmt::format("'{}' cannot be a name: letters, digits, '-', '_', '+' and '.' can, "
-                    "at most {} of them, beginning with none of '.' and '-'{}",
-                    name, kLongest, remedy));
-  }
+  return !name.empty() && name.size() <= kLongestName && name.front() != '.' &&
+         name.front() != '-' && std::all_of(name.begin(), name.end(), is_allowed);
+}
+
+void check_name(std::string_view name, const Place& place, std::string_view remedy) {
+  if (can_be_name(name)) return;
+  place.fail(
+      fmt::format("'{}' cannot be a name: letters, digits, '-', '_', '+' and '.' can, "
+                  "at most {} of them, beginning with none of '.' and '-'{}",
+                  name, kLongestName, remedy));
 }
 
 std::string path_part(std::string_view text) {

@@ -112,7 +112,9 @@ void refuse_damage(const Plan& plan, const std::vector<StepState>& states) {
 
 int StatusCommand::run() const {
   const Description description = pipeline.read();
-  const Plan plan = make_plan(description, pipeline.selection(description));
+  Selection selection = pipeline.selection(description);
+  selection.leave_out_missing = true;
+  const Plan plan = make_plan(description, selection);
   const Store store(plan.store);
   store.check_format();
   KnownDigests digests(store);
@@ -123,6 +125,9 @@ int StatusCommand::run() const {
   } else {
     print_targets(plan, states);
     print_warned(states);
+  }
+  for (const auto& [model, file] : plan.left_out) {
+    fmt::print("{:8} {}: there is no file '{}'\n", "missing", model, file.string());
   }
   print_outputs(files_to_write(plan, states, digests), steps);
   double bytes = 0;
