@@ -23,6 +23,14 @@ namespace fs = std::filesystem;
 constexpr std::size_t kLongestId = 200;  ///< a file name, with what comes before and after it
 constexpr std::size_t kKeptDigits = 16;
 
+Provenance provenance_with(const Step& step, const std::vector<Setting>& settings) {
+  const Stage stage = make_stage(step.program);
+  for (const Setting& setting : settings) {
+    stage.option(setting.option).parse_into(setting.value);
+  }
+  return provenance_of(stage);
+}
+
 /// File name of a stage's artifact.
 std::string artifact_name(const Stage& stage, const std::string& extension = "") {
   if (!extension.empty()) return stage.output.name + extension;
@@ -140,11 +148,10 @@ class Planner {
 
   /// Settings of a rule: each stronger one takes the place of those of the same option, and of
   /// those that it excludes.
-  [[nodiscard]] std::vector<Setting> settings_of(const std::string& rule, const ModelEntry& model,
-                                                 const Variant& variant) const {
+  [[nodiscard]] static std::vector<Setting> settings_of(
+      const std::string& rule, const std::vector<const std::vector<Setting>*>& weakest_first) {
     std::vector<Setting> all;
-    for (const auto* source :
-         {&description_.settings, &model.settings, &variant.settings, &selection_.settings}) {
+    for (const auto* source : weakest_first) {
       for (const Setting& setting : *source) {
         if (setting.rule != rule) continue;
         std::erase_if(all, [&](const Setting& weaker) {
@@ -195,7 +202,11 @@ class Planner {
     step.model_index = model_index;
     step.rule = rule.name;
     step.program = rule.program;
-    step.settings = settings_of(rule.name, model, variant);
+    std::vector<const std::vector<Setting>*> sources = {&description_.settings, &model.settings,
+                                                        &variant.settings};
+    step.usual_settings = settings_of(rule.name, sources);
+    sources.push_back(&selection_.settings);
+    step.settings = settings_of(rule.name, sources);
     step.file_name = artifact_name(stage);
     step.resources = rule.resources;
     step.faces = faces_;
@@ -283,6 +294,7 @@ class Planner {
     step.program = stage.name;
     step.variants.clear();
     step.settings.clear();
+    step.usual_settings.clear();
     step.deliver_to.clear();
     step.parts.clear();
     step.inputs = {{stage.inputs.front().name, source, {}}};
@@ -336,13 +348,9 @@ std::vector<Setting> idle_settings(const Plan& plan, const std::vector<Setting>&
   return idle;
 }
 
-Provenance step_provenance(const Step& step) {
-  const Stage stage = make_stage(step.program);
-  for (const Setting& setting : step.settings) {
-    stage.option(setting.option).parse_into(setting.value);
-  }
-  return provenance_of(stage);
-}
+Provenance step_provenance(const Step& step) { return provenance_with(step, step.settings); }
+
+Provenance usual_provenance(const Step& step) { return provenance_with(step, step.usual_settings); }
 
 std::vector<std::size_t> needs_of(const Step& step) {
   std::set<std::size_t> needs(step.parts.begin(), step.parts.end());

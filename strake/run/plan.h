@@ -31,6 +31,7 @@ struct Step {
   std::string program;                  ///< stage whose result this is
   std::vector<std::string> variants;    ///< that need it
   std::vector<Setting> settings;        ///< in the order in which they apply
+  std::vector<Setting> usual_settings;  ///< without those of the selection
   std::vector<StepInput> inputs;        ///< in the order of the stage's ports
   std::string file_name;                ///< of the artifact: "lines.hdf"
   std::vector<std::string> deliver_to;  ///< files to copy the artifact to, absolute
@@ -67,6 +68,8 @@ std::vector<Setting> idle_settings(const Plan& plan, const std::vector<Setting>&
 
 /// The stage and its options as the step wants them; inputs are to be filled in.
 Provenance step_provenance(const Step& step);
+/// The same without the settings of the selection.
+Provenance usual_provenance(const Step& step);
 
 /// The steps that a step waits for: makers of its inputs, and its parts.
 std::vector<std::size_t> needs_of(const Step& step);

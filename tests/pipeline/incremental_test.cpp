@@ -117,6 +117,16 @@ TEST_F(Incremental, ACopiedStoreIsAsGood) {
   expect_nothing_to_do();
 }
 
+/// What differs is told from the result of the same variant, wherever that of another lies.
+TEST_F(Incremental, ExplainComparesWithTheSameVariant) {
+  pipeline("models: [torus.obj]\nvariants: {v: {trace: {seed: [1, 2, 3, 4]}}}\n");
+  must("strake run -q --until trace");
+  for (const std::string seed : {"1", "2", "3", "4"}) {
+    const std::string said = must("strake run -n --explain --set trace.seed=77 torus/v-" + seed);
+    EXPECT_NE(said.find("seed " + seed + " -> 77"), std::string::npos) << said;
+  }
+}
+
 TEST_F(Incremental, VariantsShareWhatTheyDoNotChange) {
   pipeline(
       "models: [torus.obj]\nvariants: {a: {}, b: {trace: {seed: 2}}, c: {trace: {seed: 1}}}\n");
