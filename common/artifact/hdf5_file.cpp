@@ -130,22 +130,30 @@ Handle open_dataset(std::int64_t place, const std::string& name) {
   return {inside ? H5Dopen2(place, name.c_str(), H5P_DEFAULT) : H5I_INVALID_HID, H5Dclose};
 }
 
-/// Whether the dataset's numbers lie in the file as they are, at most with checksums.
-bool is_stored_plainly(hid_t dataset) {
+/// What is wrong where the dataset's numbers do not lie in the file as they are, at most with
+/// checksums; or "".
+std::string fault_of_storage(hid_t dataset) {
   const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
-  if (!creation.valid()) return false;
+  if (!creation.valid()) return "does not say how it is stored";
   const H5D_layout_t layout = H5Pget_layout(creation.id());
-  if (layout != H5D_COMPACT && layout != H5D_CONTIGUOUS && layout != H5D_CHUNKED) return false;
-  if (H5Pget_external_count(creation.id()) != 0) return false;
+  if (layout != H5D_COMPACT && layout != H5D_CONTIGUOUS && layout != H5D_CHUNKED) {
+    return "is put together from other files, which are not read";
+  }
+  if (H5Pget_external_count(creation.id()) != 0) return "is in another file, which is not read";
   const int filters = H5Pget_nfilters(creation.id());
+  if (filters < 0) return "does not say how it is stored";
+  bool is_filtered = false;
   for (int i = 0; i < filters; ++i) {
     unsigned flags = 0;
     std::size_t values = 0;
     const H5Z_filter_t filter = H5Pget_filter2(creation.id(), static_cast<unsigned>(i), &flags,
                                                &values, nullptr, 0, nullptr, nullptr);
-    if (filter != H5Z_FILTER_FLETCHER32) return false;
+    if (filter == H5Z_FILTER_DEFLATE) {
+      return "is compressed (gzip), which is not read; write it without compression";
+    }
+    is_filtered = is_filtered || filter != H5Z_FILTER_FLETCHER32;
   }
-  return filters >= 0;
+  return is_filtered ? "is filtered, which is not read; write it without filters" : "";
 }
 
 }  // namespace
@@ -294,12 +302,19 @@ std::string Reader::text_attribute(const std::string& name) const {
   const Handle type(H5Aget_type(attribute.id()), H5Tclose);
   const Handle space(H5Aget_space(attribute.id()), H5Sclose);
   if (!type.valid() || H5Tget_class(type.id()) != H5T_STRING ||
-      H5Tis_variable_str(type.id()) != 0 || H5Sget_simple_extent_npoints(space.id()) != 1) {
+      H5Sget_simple_extent_npoints(space.id()) != 1) {
     refuse(name, "is not a text");
+  }
+  // HDF5 1.10 takes any amount of memory for those where their heap is damaged.
+  if (H5Tis_variable_str(type.id()) != 0) {
+    refuse(name,
+           "is a text of variable length, as h5py makes of str; write it with a length of its "
+           "own, as h5py makes of numpy.bytes_");
   }
   if (H5Tget_size(type.id()) > bytes_) refuse(name, "claims more than the file holds");
   std::string text(H5Tget_size(type.id()), '\0');
   const Handle memory = text_type(text.size());
+  H5Tset_cset(memory.id(), H5Tget_cset(type.id()));
   if (H5Aread(attribute.id(), memory.id(), text.data()) < 0) fail(name, "cannot be read");
   text.erase(std::find(text.begin(), text.end(), '\0'), text.end());
   return text;
@@ -367,13 +382,12 @@ Shape Reader::checked_shape(const std::string& name, Scalar scalar, bool is_tabl
   if (shape.rows < 0 || shape.rows > kMaxRows || shape.columns < 1 || shape.columns > 64) {
     refuse(name, "claims an impossible size");
   }
+  const std::string fault = fault_of_storage(dataset.id());
+  if (!fault.empty()) refuse(name, fault);
   // Chunks that were never written read as zeros without any error, so their absence is one.
   const auto wanted = static_cast<hsize_t>(shape.rows * shape.columns * size_of(scalar));
-  if (H5Dget_storage_size(dataset.id()) < wanted) refuse(name, "is incomplete");
   if (wanted > bytes_) refuse(name, "claims more than the file holds");
-  if (!is_stored_plainly(dataset.id())) {
-    refuse(name, "is compressed, filtered or in another file, which is not read");
-  }
+  if (H5Dget_storage_size(dataset.id()) < wanted) refuse(name, "is incomplete");
   return shape;
 }
 
