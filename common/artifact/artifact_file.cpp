@@ -151,6 +151,8 @@ std::string content_digest(const std::filesystem::path& path) {
 
 bool is_artifact(const std::filesystem::path& path) {
   constexpr std::string_view kSignature("\x89HDF\r\n\x1a\n", 8);
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;  // a pipe may never begin
   std::array<char, 8> start{};
   std::ifstream stream(path, std::ios::binary);
   stream.read(start.data(), start.size());

@@ -41,8 +41,12 @@ std::string digest_text(std::string_view text) {
 
 std::string digest_file(const std::filesystem::path& path) {
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
+  const auto status = std::filesystem::status(path, ignored);
+  if (std::filesystem::is_directory(status)) {
     throw InputError(path.string() + ": is a folder; give a file");
+  }
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    throw InputError(path.string() + ": is not a regular file; give one");
   }
   std::ifstream stream(path, std::ios::binary);
   Digest digest;

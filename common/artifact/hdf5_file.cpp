@@ -130,22 +130,30 @@ Handle open_dataset(std::int64_t place, const std::string& name) {
   return {inside ? H5Dopen2(place, name.c_str(), H5P_DEFAULT) : H5I_INVALID_HID, H5Dclose};
 }
 
-/// Whether the dataset's numbers lie in the file as they are, at most with checksums.
-bool is_stored_plainly(hid_t dataset) {
+/// What is wrong where the dataset's numbers do not lie in the file as they are, at most with
+/// checksums; or "".
+std::string fault_of_storage(hid_t dataset) {
   const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
-  if (!creation.valid()) return false;
+  if (!creation.valid()) return "does not say how it is stored";
   const H5D_layout_t layout = H5Pget_layout(creation.id());
-  if (layout != H5D_COMPACT && layout != H5D_CONTIGUOUS && layout != H5D_CHUNKED) return false;
-  if (H5Pget_external_count(creation.id()) != 0) return false;
+  if (layout != H5D_COMPACT && layout != H5D_CONTIGUOUS && layout != H5D_CHUNKED) {
+    return "is put together from other files, which are not read";
+  }
+  if (H5Pget_external_count(creation.id()) != 0) return "is in another file, which is not read";
   const int filters = H5Pget_nfilters(creation.id());
+  if (filters < 0) return "does not say how it is stored";
+  bool is_filtered = false;
   for (int i = 0; i < filters; ++i) {
     unsigned flags = 0;
     std::size_t values = 0;
     const H5Z_filter_t filter = H5Pget_filter2(creation.id(), static_cast<unsigned>(i), &flags,
                                                &values, nullptr, 0, nullptr, nullptr);
-    if (filter != H5Z_FILTER_FLETCHER32) return false;
+    if (filter == H5Z_FILTER_DEFLATE) {
+      return "is compressed (gzip), which is not read; write it without compression";
+    }
+    is_filtered = is_filtered || filter != H5Z_FILTER_FLETCHER32;
   }
-  return filters >= 0;
+  return is_filtered ? "is filtered, which is not read; write it without filters" : "";
 }
 
 }  // namespace
@@ -294,12 +302,19 @@ std::string Reader::text_attribute(const std::string& name) const {
   const Handle type(H5Aget_type(attribute.id()), H5Tclose);
   const Handle space(H5Aget_space(attribute.id()), H5Sclose);
   if (!type.valid() || H5Tget_class(type.id()) != H5T_STRING ||
-      H5Tis_variable_str(type.id()) != 0 || H5Sget_simple_extent_npoints(space.id()) != 1) {
+      H5Sget_simple_extent_npoints(space.id()) != 1) {
     refuse(name, "is not a text");
+  }
+  // HDF5 1.10 takes any amount of memory for those where their heap is damaged.
+  if (H5Tis_variable_str(type.id()) != 0) {
+    refuse(name,
+           "is a text of variable length, as h5py makes of str; write it with a length of its "
+           "own, as h5py makes of numpy.bytes_");
   }
   if (H5Tget_size(type.id()) > bytes_) refuse(name, "claims more than the file holds");
   std::string text(H5Tget_size(type.id()), '\0');
   const Handle memory = text_type(text.size());
+  H5Tset_cset(memory.id(), H5Tget_cset(type.id()));
   if (H5Aread(attribute.id(), memory.id(), text.data()) < 0) fail(name, "cannot be read");
   text.erase(std::find(text.begin(), text.end(), '\0'), text.end());
   return text;
@@ -319,22 +334,27 @@ std::int64_t Reader::integer_attribute(const std::string& name) const {
   return value;
 }
 
+std::vector<std::string> Reader::link_names(std::int64_t opened, const std::string& group) const {
+  // In the order of the file: to sort links itself, HDF5 1.10 makes a table of them, and frees what
+  // it never filled in where one of them is damaged.
+  const auto keep = [](hid_t, const char* name, const H5L_info_t*, void* names) -> herr_t {
+    static_cast<std::vector<std::string>*>(names)->emplace_back(name);
+    return 0;
+  };
+  std::vector<std::string> names;
+  if (H5Literate(opened, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, keep, &names) < 0) {
+    fail(group, "cannot be read");
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
 std::vector<DatasetInfo> Reader::list(const std::string& group) const {
   if (!is_inside(id_, group)) refuse(group, "is missing or elsewhere");
   const Handle opened(H5Gopen2(id_, group.c_str(), H5P_DEFAULT), H5Gclose);
-  H5G_info_t info;
-  if (!opened.valid() || H5Gget_info(opened.id(), &info) < 0) fail(group, "cannot be read");
+  if (!opened.valid()) fail(group, "cannot be read");
   std::vector<DatasetInfo> datasets;
-  for (hsize_t i = 0; i < info.nlinks; ++i) {
-    const auto name_at = [&](char* text, std::size_t size) {
-      return H5Lget_name_by_idx(opened.id(), ".", H5_INDEX_NAME, H5_ITER_INC, i, text, size,
-                                H5P_DEFAULT);
-    };
-    const ssize_t length = name_at(nullptr, 0);
-    if (length < 0) fail(group, "cannot be read");
-    std::string name(static_cast<std::size_t>(length) + 1, '\0');
-    name_at(name.data(), name.size());
-    name.pop_back();
+  for (const std::string& name : link_names(opened.id(), group)) {
     const Handle dataset = open_dataset(opened.id(), name);
     if (!dataset.valid()) continue;
     const auto [rank, sizes] = dimensions(dataset.id());
@@ -362,13 +382,12 @@ Shape Reader::checked_shape(const std::string& name, Scalar scalar, bool is_tabl
   if (shape.rows < 0 || shape.rows > kMaxRows || shape.columns < 1 || shape.columns > 64) {
     refuse(name, "claims an impossible size");
   }
+  const std::string fault = fault_of_storage(dataset.id());
+  if (!fault.empty()) refuse(name, fault);
   // Chunks that were never written read as zeros without any error, so their absence is one.
   const auto wanted = static_cast<hsize_t>(shape.rows * shape.columns * size_of(scalar));
-  if (H5Dget_storage_size(dataset.id()) < wanted) refuse(name, "is incomplete");
   if (wanted > bytes_) refuse(name, "claims more than the file holds");
-  if (!is_stored_plainly(dataset.id())) {
-    refuse(name, "is compressed, filtered or in another file, which is not read");
-  }
+  if (H5Dget_storage_size(dataset.id()) < wanted) refuse(name, "is incomplete");
   return shape;
 }
 

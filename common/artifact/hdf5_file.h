@@ -176,6 +176,9 @@ class Reader : public File {
   [[noreturn]] void refuse(const std::string& name, const std::string& what) const;
 
  private:
+  /// Names of all that a group holds, in alphabetical order.
+  [[nodiscard]] std::vector<std::string> link_names(std::int64_t opened,
+                                                    const std::string& group) const;
   [[nodiscard]] Shape checked_shape(const std::string& name, Scalar scalar, bool is_table) const;
   /// Reads a block of the given shape that begins at row `first` of the dataset.
   void read(const std::string& name, void* data, Scalar scalar, std::int64_t first,

@@ -1,6 +1,16 @@
 #include "common/core/text.h"
 
+#include <algorithm>
+
 namespace strake {
+namespace {
+
+bool is_control(char c) {
+  constexpr char kDelete = 127;
+  return (c >= 0 && c < ' ') || c == kDelete;
+}
+
+}  // namespace
 
 std::string join_words(const std::vector<std::string>& words, std::string_view between) {
   std::string text;
@@ -17,6 +27,15 @@ std::string lower_case(std::string_view text) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
   return lower;
+}
+
+bool has_control_characters(std::string_view text) {
+  return std::any_of(text.begin(), text.end(), is_control);
+}
+
+std::string on_one_line(std::string text) {
+  std::replace_if(text.begin(), text.end(), is_control, '?');
+  return text;
 }
 
 }  // namespace strake

@@ -12,4 +12,10 @@ std::string join_words(const std::vector<std::string>& words, std::string_view b
 /// A text with small letters for its capital ones, of ASCII only.
 std::string lower_case(std::string_view text);
 
+/// Whether a text holds line breaks, tabs or other control characters.
+bool has_control_characters(std::string_view text);
+
+/// Text that stays on one line: '?' for each control character.
+std::string on_one_line(std::string text);
+
 }  // namespace strake

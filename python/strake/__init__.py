@@ -14,6 +14,7 @@ progress(stage, phase, fraction) some times a second. Other Python threads go on
 Ctrl-C cancels. What goes wrong raises a subclass of `Error`.
 """
 
+import operator as _operator
 import warnings as _warnings
 
 import numpy as _np
@@ -21,7 +22,7 @@ import numpy as _np
 from . import _core
 from ._core import (AlgorithmError, DensityField, EdgeList, Error, InputError, LineSet, Polygons,
                     PreconditionError, PrincipalField, QuadMesh, SizeField, TensorField,
-                    ToleranceError, TriMesh, UsageError, __version__, line_points)
+                    ToleranceError, TriMesh, UsageError, __version__)
 
 __all__ = [
     "AlgorithmError", "DensityField", "EdgeList", "Error", "Faces", "InputError", "LineSet",
@@ -31,7 +32,7 @@ __all__ = [
 ]
 
 Error.__doc__ = "What goes wrong in strake; the message names a remedy."
-UsageError.__doc__ = "An option is unknown, malformed or out of range."
+UsageError.__doc__ = "An option is unknown, malformed or out of range, or an argument of a wrong kind."
 InputError.__doc__ = "A mesh holds nothing usable, or an array is not as it should be."
 PreconditionError.__doc__ = "Values are each sound but do not belong together."
 AlgorithmError.__doc__ = "A result failed its own check, so it is not handed out."
@@ -119,6 +120,50 @@ class Remeshed:
         return f"<strake.Remeshed: {len(self.vertices)} vertices, {len(self.faces)} faces>"
 
 
+def _kind(argument, value, *kinds):
+    """The value of an argument, which has to be one of these classes."""
+    if not isinstance(value, kinds):
+        wanted = " or ".join(kind.__name__ for kind in kinds)
+        raise UsageError(f"{argument} is a {type(value).__name__}; give a {wanted}")
+    return value
+
+
+def _kind_or_none(argument, value, *kinds):
+    return None if value is None else _kind(argument, value, *kinds)
+
+
+def _array(argument, values):
+    """An argument as an array, all of whose elements count."""
+    if _np.ma.is_masked(values):
+        raise InputError(f"{argument}: elements are masked; fill them, or leave them out")
+    try:
+        return _np.asarray(values)
+    except (TypeError, ValueError) as error:
+        raise UsageError(f"{argument}: no array can be made of this: {error}") from None
+
+
+def _numbers(argument, values):
+    """An argument as an array of floating-point numbers."""
+    array = _array(argument, values)
+    if array.dtype.kind not in "biuf":
+        raise UsageError(f"{argument}: numbers are needed, not {array.dtype}")
+    return array.astype(float, copy=False)
+
+
+def _running(threads, progress):
+    """How to run, as the core takes it."""
+    most = 4096
+    try:
+        threads = _operator.index(threads)
+    except TypeError:
+        raise UsageError(f"threads is a {type(threads).__name__}; give an int") from None
+    if not 0 <= threads <= most:
+        raise UsageError(f"threads: {threads} is out of range, expected between 0 and {most}")
+    if progress is not None and not callable(progress):
+        raise UsageError(f"progress is a {type(progress).__name__}; give a function")
+    return threads, progress
+
+
 def _settings(options):
     """Options as the text of the command line, by its names."""
     def text(value):
@@ -137,14 +182,20 @@ def _offsets_and_corners(faces):
         return faces
     if isinstance(faces, _np.ndarray) and faces.ndim == 2:
         return _np.arange(len(faces) + 1) * faces.shape[1], faces.reshape(-1)
-    sizes = [len(face) for face in faces]
-    corners = [corner for face in faces for corner in face]
+    try:
+        sizes = [len(face) for face in faces]
+        corners = [corner for face in faces for corner in face]
+    except TypeError:
+        raise UsageError("faces are neither an array of two dimensions, nor (offsets, corners), nor a "
+                         "list of lists") from None
     return _np.cumsum([0] + sizes), corners
 
 
 def _whole(numbers, what):
     """Whole numbers as indices."""
-    numbers = _np.asarray(numbers)
+    numbers = _array(what, numbers)
+    if numbers.dtype.kind not in "biuf":
+        raise UsageError(f"{what}: numbers are needed, not {numbers.dtype}")
     with _np.errstate(invalid="ignore"):
         indices = numbers.astype(_np.int32)
     if (indices != numbers).any():
@@ -155,8 +206,8 @@ def _whole(numbers, what):
 def _numbered(labels):
     """Labels of faces as numbers, and what the numbers stand for where texts were given."""
     numbers, names = {}, {}
-    for kind, values in labels.items():
-        values = _np.asarray(values)
+    for kind, values in _kind("labels", labels, dict).items():
+        values = _array(f"labels '{kind}'", values)
         if values.dtype.kind in "OSU":
             known, values = _np.unique(values.astype(str), return_inverse=True)
             names[kind] = known.tolist()
@@ -164,24 +215,37 @@ def _numbered(labels):
     return numbers, names
 
 
+def _colours(colours):
+    """Colours as [V, 4] in [0, 1]."""
+    numbers = _numbers("colours", colours)
+    if _array("colours", colours).dtype.kind in "iu":
+        if ((numbers < 0) | (numbers > 255)).any():
+            raise InputError("colours: integers are taken as 0 to 255, and some are outside")
+        numbers = numbers / 255
+    if not _np.isfinite(numbers).all():
+        raise InputError("colours: some are no finite numbers")
+    if numbers.ndim == 2 and numbers.shape[1] == 3:
+        numbers = _np.hstack([numbers, _np.ones((len(numbers), 1))])
+    return numbers
+
+
 def polygons(vertices, faces, colours=None, texture=None, labels=None):
     """A polygon mesh from arrays.
 
     vertices: [V, 3]. faces: an array [F, 3] or [F, 4], `Faces`, (offsets, corners), or a list of
     lists, counter-clockwise. What comes along to the result, as far as it is given: colours, [V, 3] or
-    [V, 4] in [0, 1]; texture, [corners, 2] or [F, 3, 2], coordinates of every corner in the order
+    [V, 4], floats in [0, 1] or integers up to 255; texture, [corners, 2] or [F, 3, 2], coordinates of every corner in the order
     of the faces, from those of vertices by uv[faces]; labels, dict of [F] integers or texts, such as
     the material of every face.
     """
     offsets, corners = (_whole(part, "faces") for part in _offsets_and_corners(faces))
     if colours is not None:
-        colours = _np.asarray(colours, dtype=float)
-        if colours.ndim == 2 and colours.shape[1] == 3:
-            colours = _np.hstack([colours, _np.ones((len(colours), 1))])
+        colours = _colours(colours)
     if texture is not None:
-        texture = _np.asarray(texture, dtype=float)
-        texture = texture.reshape(-1, texture.shape[-1])
-    return _core.polygons(vertices, offsets, corners, colours, texture, *_numbered(labels or {}))
+        texture = _numbers("texture", texture)
+        if texture.ndim > 2:
+            texture = texture.reshape(-1, texture.shape[-1])
+    return _core.polygons(_numbers("vertices", vertices), offsets, corners, colours, texture, *_numbered(labels or {}))
 
 
 def _edges(feature_edges):
@@ -189,11 +253,17 @@ def _edges(feature_edges):
 
 
 def _guides(guides):
-    return None if guides is None else _core.guides(guides)
+    if guides is None:
+        return None
+    try:
+        lines = list(guides)
+    except TypeError:
+        raise UsageError("guides are no list of arrays") from None
+    return _core.guides([_numbers("guides", line) for line in lines])
 
 
 def _density(density):
-    return None if density is None else _core.density(density)
+    return None if density is None else _core.density(_numbers("density", density))
 
 
 def remesh(vertices, faces, *, colours=None, texture=None, labels=None, feature_edges=None,
@@ -209,13 +279,14 @@ def remesh(vertices, faces, *, colours=None, texture=None, labels=None, feature_
     soup = polygons(vertices, faces, colours, texture, labels)
     return Remeshed(*_core.remesh(soup, _edges(feature_edges), _guides(guides),
                                   _density(density),
-                                  _settings(options), measure, threads, progress))
+                                  _settings(options), bool(measure), *_running(threads, progress)))
 
 
 def _run(stage, inputs, options, threads, progress):
     """Runs a stage. Warnings of its report become Python's. Gives output and report."""
     given = {port: value for port, value in inputs.items() if value is not None}
-    output, report, sentences = _core.run(stage, given, _settings(options), threads, progress)
+    output, report, sentences = _core.run(stage, given, _settings(options),
+                                          *_running(threads, progress))
     for sentence in sentences:
         _warnings.warn(f"{stage}: {sentence}", stacklevel=3)
     return output, report
@@ -231,7 +302,7 @@ def import_mesh(vertices, faces, *, colours=None, texture=None, labels=None, fea
 
 def tensor(mesh, *, threads=0, progress=None, **options):
     """Estimates the curvature tensor at every wedge of a TriMesh. Gives a `TensorField`."""
-    return _run("tensor", {"mesh": mesh}, options, threads, progress)[0]
+    return _run("tensor", {"mesh": _kind("mesh", mesh, TriMesh)}, options, threads, progress)[0]
 
 
 def smooth(mesh, tensor, *, guides=None, threads=0, progress=None, **options):
@@ -239,7 +310,8 @@ def smooth(mesh, tensor, *, guides=None, threads=0, progress=None, **options):
 
     guides: list of [N, 3] points of lines that edges are to follow.
     """
-    inputs = {"mesh": mesh, "tensor": tensor, "guides": _guides(guides)}
+    inputs = {"mesh": _kind("mesh", mesh, TriMesh), "tensor": _kind("tensor", tensor, TensorField),
+              "guides": _guides(guides)}
     return _run("smooth", inputs, options, threads, progress)[0]
 
 
@@ -249,43 +321,54 @@ def trace(mesh, field, *, size=None, density=None, threads=0, progress=None, **o
     size: a SizeField to take instead of a tolerance. density: [vertices of the input], as for
     `remesh`.
     """
-    inputs = {"mesh": mesh, "field": field, "size": size, "density": _density(density)}
+    inputs = {"mesh": _kind("mesh", mesh, TriMesh), "field": _kind("field", field, PrincipalField),
+              "size": _kind_or_none("size", size, SizeField), "density": _density(density)}
     return _run("trace", inputs, options, threads, progress)[0]
+
+
+def line_points(mesh, lines):
+    """[P, 3] the points of lines, in coordinates of the input."""
+    return _core.line_points(_kind("mesh", mesh, TriMesh), _kind("lines", lines, LineSet))
 
 
 def mesh(mesh, lines, *, threads=0, progress=None, **options):
     """Builds the polygons between lines. Gives a `QuadMesh`."""
-    return _run("mesh", {"mesh": mesh, "lines": lines}, options, threads, progress)[0]
+    inputs = {"mesh": _kind("mesh", mesh, TriMesh), "lines": _kind("lines", lines, LineSet)}
+    return _run("mesh", inputs, options, threads, progress)[0]
 
 
 def fit(mesh, quads, *, field=None, threads=0, progress=None, **options):
     """Moves vertices of a QuadMesh so that its faces lie nearer to the TriMesh."""
-    inputs = {"mesh": mesh, "quads": quads, "field": field}
+    inputs = {"mesh": _kind("mesh", mesh, TriMesh), "quads": _kind("quads", quads, QuadMesh),
+              "field": _kind_or_none("field", field, PrincipalField)}
     return _run("fit", inputs, options, threads, progress)[0]
 
 
 def size(mesh, field, lines, quads, *, density=None, threads=0, progress=None, **options):
     """Wanted distances of lines that even out the errors of a QuadMesh. Gives a `SizeField`."""
-    inputs = {"mesh": mesh, "field": field, "lines": lines, "fitted": quads,
+    inputs = {"mesh": _kind("mesh", mesh, TriMesh), "field": _kind("field", field, PrincipalField),
+              "lines": _kind("lines", lines, LineSet), "fitted": _kind("quads", quads, QuadMesh),
               "density": _density(density)}
     return _run("size", inputs, options, threads, progress)[0]
 
 
 def refine(mesh, quads, *, threads=0, progress=None, **options):
     """Divides cells of a QuadMesh that are too far from the TriMesh."""
-    return _run("refine", {"mesh": mesh, "fitted": quads}, options, threads, progress)[0]
+    inputs = {"mesh": _kind("mesh", mesh, TriMesh), "fitted": _kind("quads", quads, QuadMesh)}
+    return _run("refine", inputs, options, threads, progress)[0]
 
 
 def decimate(mesh, *, threads=0, progress=None, **options):
     """Makes a QuadMesh of few vertices by decimating a TriMesh, where lines would be too coarse."""
-    return _run("decimate", {"mesh": mesh}, options, threads, progress)[0]
+    return _run("decimate", {"mesh": _kind("mesh", mesh, TriMesh)}, options, threads, progress)[0]
 
 
 def evaluate(mesh, candidate, *, field=None, threads=0, progress=None, **options):
     """Measures a QuadMesh, or any `polygons`, against a TriMesh. Gives a dict by dotted key."""
-    if isinstance(candidate, QuadMesh):
+    if isinstance(_kind("candidate", candidate, QuadMesh, Polygons), QuadMesh):
         candidate = _core.polygons_of(candidate)
-    inputs = {"mesh": mesh, "candidate": candidate, "field": field}
+    inputs = {"mesh": _kind("mesh", mesh, TriMesh), "candidate": candidate,
+              "field": _kind_or_none("field", field, PrincipalField)}
     return _run("evaluate", inputs, options, threads, progress)[1]
 
 

@@ -26,8 +26,10 @@ Index point_index(const std::string& word, const Polylines& lines) {
 }  // namespace
 
 Polylines read_polylines(const std::filesystem::path& path) {
-  std::ifstream in(path);
-  if (!in) throw InputError("'" + path.string() + "' cannot be opened; check the name");
+  std::error_code ignored;
+  std::ifstream in;  // opened only then: opening a pipe waits for somebody who writes into it
+  if (std::filesystem::is_regular_file(path, ignored)) in.open(path);
+  if (!in.is_open()) throw InputError("'" + path.string() + "' cannot be opened; check the name");
   Polylines result;
   std::string text;
   std::string group;

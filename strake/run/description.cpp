@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "common/core/error.h"
+#include "common/core/text.h"
 #include "strake/run/rules.h"
 #include "strake/run/slurm_options.h"
 #include "strake/run/stage_catalog.h"
@@ -74,6 +75,11 @@ class Reader {
       : top_(YamlView::load(file).fields("a pipeline", kTopKeys)) {
     description_.file = fs::absolute(file).lexically_normal();
     folder_ = description_.file.parent_path();
+    if (!has_control_characters(folder_.string())) return;
+    throw UsageError(
+        fmt::format("'{}': a pipeline cannot be run in a folder with line breaks or "
+                    "other control characters in its path; rename it",
+                    on_one_line(folder_.string())));
   }
 
   Description read() {
@@ -104,6 +110,9 @@ class Reader {
     if (!top_.count("store")) return;
     const YamlView& view = top_.at("store");
     description_.store = (folder_ / view.text("a folder") / "").lexically_normal().parent_path();
+    if (has_control_characters(description_.store.string())) {
+      view.fail("the path of a store cannot have line breaks or other control characters in it");
+    }
     if (description_.store != folder_) return;
     view.fail("the folder of the pipeline file cannot be the store; name one for results alone");
   }
@@ -214,9 +223,7 @@ class Reader {
     names.erase(std::unique(names.begin(), names.end()), names.end());
     for (const auto& [name, value] : view.fields("inputs of a model", names)) {
       const fs::path file = (folder_ / value.text("a file")).lexically_normal();
-      if (!is_file(file)) {
-        value.fail(fmt::format("there is no file '{}'", file.string()));
-      }
+      if (!is_file(file)) note_missing(model, file, value.place());
       model.inputs[name] = file;
     }
   }
@@ -257,14 +264,24 @@ class Reader {
     const fs::path file = (folder_ / text).lexically_normal();
     const bool is_there = is_file(file);
     if (is_there || text.find_first_of(kPatternMarks) == std::string::npos) {
-      if (!is_there) place.fail(fmt::format("there is no file '{}'", file.string()));
-      add_model(name.empty() ? file.stem().string() : name, place, file);
+      const std::string own = name.empty() ? file.stem().string() : name;
+      if (!is_there && name.empty() && !can_be_name(own)) {
+        place.fail(fmt::format("there is no file '{}'", file.string()));
+      }
+      add_model(own, place, file);
+      if (!is_there) note_missing(description_.models.back(), file, place);
       return;
     }
     const std::vector<std::string> paths = matching_files(folder_, text);
     if (paths.empty()) place.fail(fmt::format("no file matches '{}'", file.string()));
     if (!name.empty()) place.fail("patterns have no single name; list them under 'models: [...]'");
     for (const std::string& path : paths) add_model(fs::path(path).stem().string(), place, path);
+  }
+
+  static void note_missing(ModelEntry& model, const fs::path& file, const Place& place) {
+    if (!model.missing.empty()) return;
+    model.missing = file;
+    model.missing_place = place;
   }
 
   void add_model(const std::string& name, const Place& place, const fs::path& file) {
@@ -276,7 +293,10 @@ class Reader {
     for (const ModelEntry& other : description_.models) {
       if (other.name == name) place.fail(fmt::format("there are two models '{}'{}", name, remedy));
     }
-    ModelEntry model{name, place, file, {}, {}, {}};
+    ModelEntry model;
+    model.name = name;
+    model.place = place;
+    model.file = file;
     for (const Variant& variant : description_.variants) model.variants.push_back(variant.name);
     description_.models.push_back(std::move(model));
   }

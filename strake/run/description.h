@@ -42,6 +42,10 @@ struct ModelEntry {
   std::filesystem::path file;         ///< absolute; empty: the program makes the model itself
   std::vector<Setting> settings;      ///< of the rule "sample" too, where there is no file
   std::vector<std::string> variants;  ///< names of those that apply
+  /// A file that is not there, of those above and below, and the place that names it. To be told of
+  /// where the model is wanted.
+  std::filesystem::path missing = {};
+  Place missing_place = {};
   /// Further files, absolute, by the name under which rules ask for them: guides, a density ...
   std::map<std::string, std::filesystem::path> inputs;
 };
@@ -72,7 +76,7 @@ struct Description {
   std::vector<std::string> sbatch_options;  ///< for all jobs on a cluster
 };
 
-/// Reads and checks a pipeline file, before anything is run.
+/// Reads and checks a pipeline file, before anything is run. Files of models may be missing.
 /// \throw UsageError naming file, line and remedy; InputError where the file is missing
 Description read_description(const std::filesystem::path& file);
 

@@ -228,6 +228,12 @@ class StepRun {
     log(fmt::format("exit code {} after {:.3f} s, at most {} bytes of memory", ended.exit_code,
                     ended.seconds, ended.peak_bytes));
     if (ended.exit_code != 0) clean(name);
+    if (ended.exit_code == kCannotStart) {
+      throw InputError(
+          fmt::format("'{}' cannot be started: programs of stages belong beside "
+                      "'strake'; install all of them there",
+                      words.front()));
+    }
     require_same_inputs();
     StepOutcome outcome;
     outcome.entry = name;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -48,7 +49,8 @@ std::int64_t now_ns() {
 double amount(const std::string& text, const std::optional<double>& value, const char* option,
               const char* example) {
   if (value) return *value;
-  throw UsageError(fmt::format("{} '{}' is none; write e.g. {}", option, text, example));
+  throw UsageError(
+      fmt::format("{} '{}' is none; write e.g. {}, a number and a unit", option, text, example));
 }
 
 /// Folders of what the pipeline makes as it stands now. Where that is not known yet, since
@@ -92,12 +94,18 @@ int GcCommand::run() const {
                            : amount(older_than, parse_seconds(older_than), "--older-than", "30d");
   double room = max_size.empty() ? std::numeric_limits<double>::infinity()
                                  : amount(max_size, parse_bytes(max_size), "--max-size", "10GB");
-  const Description description = pipeline.read();
-  const Store store(description.store, dry_run ? Store::Access::look_only : Store::Access::full);
+  std::optional<Description> description;  // of no use where the store is named, as for many files
+  if (unreachable || pipeline.store.empty()) description = pipeline.read();
+  const fs::path folder = description ? description->store : pipeline.named_store();
+  std::error_code ignored;
+  if (!pipeline.store.empty() && !fs::exists(folder, ignored)) {
+    throw InputError(fmt::format("--store '{}': there is no such folder", folder.string()));
+  }
+  const Store store(folder, dry_run ? Store::Access::look_only : Store::Access::full);
   store.check_format();
   store.require_own();
   const std::set<fs::path> needed =
-      unreachable ? reachable(description, store) : std::set<fs::path>();
+      unreachable ? reachable(*description, store) : std::set<fs::path>();
 
   std::vector<Store::Listed> all = store.list();
   std::stable_sort(all.begin(), all.end(), [](const Store::Listed& a, const Store::Listed& b) {
@@ -135,7 +143,7 @@ void add_gc_command(CLI::App& app, Action& chosen) {
   CLI::App* command = app.add_subcommand("gc", "Remove results from the store.");
   command->footer(
       "Examples:\n  strake gc --unreachable --dry-run\n  strake gc --older-than 30d --max-size "
-      "50GB");
+      "50GB\n  strake gc --store /scratch/store --older-than 30d");
   const auto gc = std::make_shared<GcCommand>();
   gc->pipeline.add_file_to(*command);
   command->add_flag("--unreachable", gc->unreachable,

@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "common/core/error.h"
+#include "common/core/text.h"
 #include "strake/run/rules.h"
 
 namespace strake {
@@ -34,10 +35,17 @@ void PipelineOptions::add_file_to(CLI::App& app) {
 
 Description PipelineOptions::read() const {
   Description description = read_description(file);
-  if (!store.empty()) {
-    description.store = (fs::absolute(store) / "").lexically_normal().parent_path();
-  }
+  if (!store.empty()) description.store = named_store();
   return description;
+}
+
+fs::path PipelineOptions::named_store() const {
+  const fs::path folder = (fs::absolute(store) / "").lexically_normal().parent_path();
+  if (!has_control_characters(folder.string())) return folder;
+  throw UsageError(
+      fmt::format("--store '{}': the path of a store cannot have line breaks or other "
+                  "control characters in it",
+                  on_one_line(folder.string())));
 }
 
 Selection PipelineOptions::selection(const Description& description) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,8 @@ struct PipelineOptions {
   void add_file_to(CLI::App& app);
   /// Reads the file; the store is the one named here, if one is.
   [[nodiscard]] Description read() const;
+  /// The folder of the option --store. \pre it was given \throw UsageError
+  [[nodiscard]] std::filesystem::path named_store() const;
   [[nodiscard]] Selection selection(const Description& description) const;
 };
 

@@ -23,6 +23,14 @@ namespace fs = std::filesystem;
 constexpr std::size_t kLongestId = 200;  ///< a file name, with what comes before and after it
 constexpr std::size_t kKeptDigits = 16;
 
+Provenance provenance_with(const Step& step, const std::vector<Setting>& settings) {
+  const Stage stage = make_stage(step.program);
+  for (const Setting& setting : settings) {
+    stage.option(setting.option).parse_into(setting.value);
+  }
+  return provenance_of(stage);
+}
+
 /// File name of a stage's artifact.
 std::string artifact_name(const Stage& stage, const std::string& extension = "") {
   if (!extension.empty()) return stage.output.name + extension;
@@ -100,7 +108,14 @@ class Planner {
       for (const Variant& variant : description_.variants) {
         const bool applies = std::find(model.variants.begin(), model.variants.end(),
                                        variant.name) != model.variants.end();
-        if (applies && is_wanted(model.name, variant.name)) add(m, variant);
+        if (!applies || !is_wanted(model.name, variant.name)) continue;
+        if (model.missing.empty()) {
+          add(m, variant);
+        } else if (selection_.leave_out_missing) {
+          plan_.left_out[model.name] = model.missing;
+        } else {
+          model.missing_place.fail(fmt::format("there is no file '{}'", model.missing.string()));
+        }
       }
     }
     name_steps();
@@ -147,11 +162,10 @@ class Planner {
 
   /// Settings of a rule: each stronger one takes the place of those of the same option, and of
   /// those that it excludes.
-  [[nodiscard]] std::vector<Setting> settings_of(const std::string& rule, const ModelEntry& model,
-                                                 const Variant& variant) const {
+  [[nodiscard]] static std::vector<Setting> settings_of(
+      const std::string& rule, const std::vector<const std::vector<Setting>*>& weakest_first) {
     std::vector<Setting> all;
-    for (const auto* source :
-         {&description_.settings, &model.settings, &variant.settings, &selection_.settings}) {
+    for (const auto* source : weakest_first) {
       for (const Setting& setting : *source) {
         if (setting.rule != rule) continue;
         std::erase_if(all, [&](const Setting& weaker) {
@@ -202,7 +216,11 @@ class Planner {
     step.model_index = model_index;
     step.rule = rule.name;
     step.program = rule.program;
-    step.settings = settings_of(rule.name, model, variant);
+    std::vector<const std::vector<Setting>*> sources = {&description_.settings, &model.settings,
+                                                        &variant.settings};
+    step.usual_settings = settings_of(rule.name, sources);
+    sources.push_back(&selection_.settings);
+    step.settings = settings_of(rule.name, sources);
     step.file_name = artifact_name(stage);
     step.resources = rule.resources;
     step.faces = faces_;
@@ -287,6 +305,7 @@ class Planner {
     step.program = stage.name;
     step.variants.clear();
     step.settings.clear();
+    step.usual_settings.clear();
     step.deliver_to.clear();
     step.parts.clear();
     step.inputs = {{stage.inputs.front().name, source, {}}};
@@ -341,13 +360,9 @@ std::vector<Setting> idle_settings(const Plan& plan, const std::vector<Setting>&
   return idle;
 }
 
-Provenance step_provenance(const Step& step) {
-  const Stage stage = make_stage(step.program);
-  for (const Setting& setting : step.settings) {
-    stage.option(setting.option).parse_into(setting.value);
-  }
-  return provenance_of(stage);
-}
+Provenance step_provenance(const Step& step) { return provenance_with(step, step.settings); }
+
+Provenance usual_provenance(const Step& step) { return provenance_with(step, step.usual_settings); }
 
 std::vector<std::size_t> needs_of(const Step& step) {
   std::set<std::size_t> needs(step.parts.begin(), step.parts.end());

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,7 @@ struct Step {
   std::string program;                  ///< stage whose result this is
   std::vector<std::string> variants;    ///< that need it
   std::vector<Setting> settings;        ///< in the order in which they apply
+  std::vector<Setting> usual_settings;  ///< without those of the selection
   std::vector<StepInput> inputs;        ///< in the order of the stage's ports
   std::string file_name;                ///< of the artifact: "lines.hdf"
   std::vector<std::string> deliver_to;  ///< files to copy the artifact to, absolute
@@ -45,6 +47,8 @@ struct Step {
 struct Plan {
   std::filesystem::path store;
   std::vector<Step> steps;
+  /// Models without steps, since a file of theirs is not there, and that file.
+  std::map<std::string, std::filesystem::path> left_out;
 };
 
 /// What the user wants of a description.
@@ -52,10 +56,11 @@ struct Selection {
   std::vector<std::string> targets;  ///< "MODEL" or "MODEL/VARIANT"; empty: everything
   std::optional<std::string> until;  ///< last rule of interest
   std::vector<Setting> settings;     ///< that go before all others
+  bool leave_out_missing = false;    ///< models that lack a file, instead of refusing them
 };
 
 /// Unfolds models, variants and rules. Reads no artifact.
-/// \throw UsageError where a target or rule does not exist
+/// \throw UsageError where a target or rule does not exist, or a file of a model that is wanted
 Plan make_plan(const Description& description, const Selection& selection);
 
 /// Those of the settings that no step of the plan has, as their stages come after the last one.
@@ -63,6 +68,8 @@ std::vector<Setting> idle_settings(const Plan& plan, const std::vector<Setting>&
 
 /// The stage and its options as the step wants them; inputs are to be filled in.
 Provenance step_provenance(const Step& step);
+/// The same without the settings of the selection.
+Provenance usual_provenance(const Step& step);
 
 /// The steps that a step waits for: makers of its inputs, and its parts.
 std::vector<std::size_t> needs_of(const Step& step);

@@ -23,16 +23,17 @@ struct Cost {
   double microseconds = 0;
 };
 
-/// A number followed by one of the units, or by nothing.
+/// A number followed by one of the units; 0 needs none.
 std::optional<double> parse_with_unit(std::string_view text,
                                       const std::map<std::string, double, std::less<>>& units) {
   std::string_view unit = text;
   const std::optional<double> number = take_number(unit);
   if (!number) return std::nullopt;
   while (unit.starts_with(' ')) unit.remove_prefix(1);
+  if (unit.empty() && *number == 0) return 0;
   const auto factor = units.find(unit);
-  if (!unit.empty() && factor == units.end()) return std::nullopt;
-  const double amount = unit.empty() ? *number : *number * factor->second;
+  if (factor == units.end()) return std::nullopt;
+  const double amount = *number * factor->second;
   return amount >= 0 && amount <= kLargest ? std::optional(amount) : std::nullopt;
 }
 

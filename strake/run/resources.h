@@ -28,9 +28,10 @@ Resources default_resources(std::string_view program);
 /// Vertices that a result within a tolerance has, roughly. \param share  of the diagonal
 double vertices_within(double share);
 
-/// "512MB", "2 GiB", "300B", a plain number of bytes. Nothing where the text is none of these.
+/// "512MB", "2 GiB", "300B", "0". Nothing where the text is none of these: a number without a unit
+/// may mean anything.
 std::optional<double> parse_bytes(std::string_view text);
-/// "90s", "10min", "2h", "15us", a plain number of seconds.
+/// "90s", "10min", "2h", "15us", "0", likewise.
 std::optional<double> parse_seconds(std::string_view text);
 std::string bytes_text(double bytes);      ///< "1.5 GB"
 std::string seconds_text(double seconds);  ///< "75 ms", "1.5 s", "12 min"

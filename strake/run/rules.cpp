@@ -21,6 +21,7 @@ const std::vector<std::string> kResourceKeys = {"memory",        "memory-per-fac
                                                 "time-per-face", "threads",         "parts"};
 constexpr const char* kProgramPrefix = "strake-";
 constexpr std::int64_t kMostParts = 4096;
+constexpr std::size_t kLongestName = 100;
 
 /// Stands for the result of all stages, until these are known; no name of an artifact.
 constexpr const char* kResult = "<result>";
@@ -69,7 +70,9 @@ void read_resources(const YamlView& view, Rule& rule) {
     if (field == fields.end()) return false;
     const std::string text = field->second.text("an amount");
     const std::optional<double> value = parse(text);
-    if (!value) field->second.fail(fmt::format("'{}' is none; write e.g. {}", text, example));
+    if (!value)
+      field->second.fail(
+          fmt::format("'{}' is none; write e.g. {}, a number and a unit", text, example));
     target = *value;
     return true;
   };
@@ -321,19 +324,21 @@ void check_together(const std::vector<Setting>& settings) {
   }
 }
 
-void check_name(std::string_view name, const Place& place, std::string_view remedy) {
+bool can_be_name(std::string_view name) {
   const auto is_allowed = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
            c == '_' || c == '.' || c == '+';
   };
-  constexpr std::size_t kLongest = 100;
-  if (name.empty() || name.size() > kLongest || name.front() == '.' || name.front() == '-' ||
-      !std::all_of(name.begin(), name.end(), is_allowed)) {
-    place.fail(
-        fmt::format("'{}' cannot be a name: letters, digits, '-', '_', '+' and '.' can, "
-                    "at most {} of them, beginning with none of '.' and '-'{}",
-                    name, kLongest, remedy));
-  }
+  return !name.empty() && name.size() <= kLongestName && name.front() != '.' &&
+         name.front() != '-' && std::all_of(name.begin(), name.end(), is_allowed);
+}
+
+void check_name(std::string_view name, const Place& place, std::string_view remedy) {
+  if (can_be_name(name)) return;
+  place.fail(
+      fmt::format("'{}' cannot be a name: letters, digits, '-', '_', '+' and '.' can, "
+                  "at most {} of them, beginning with none of '.' and '-'{}",
+                  name, kLongestName, remedy));
 }
 
 std::string path_part(std::string_view text) {

@@ -40,6 +40,8 @@ bool excludes(const Setting& one, const Setting& other);
 /// Refuses settings of one place that exclude each other. \throw UsageError naming the place
 void check_together(const std::vector<Setting>& settings);
 
+/// Whether it can be part of a file name, everywhere.
+bool can_be_name(std::string_view name);
 /// Refuses names that could not be part of a file name.
 /// \throw UsageError
 /// \param remedy  what to do about it, beginning with "; "

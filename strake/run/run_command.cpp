@@ -30,18 +30,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How often a run starts over after an input turned out to be damaged.
-constexpr int kMostRounds = 3;
+/// How often in a row a run starts over without having made anything new, where inputs turn out to
+/// be damaged or gone.
+constexpr int kMostFruitless = 3;
 /// Share of the machine's memory that steps may use together unless told otherwise.
 constexpr double kMemoryShare = 0.9;
-/// No exit code of a program: an input was damaged, so the run starts over.
-constexpr int kDamaged = -1;
 
 std::int64_t machine_memory() {
   struct sysinfo info = {};
   ::sysinfo(&info);
   return static_cast<std::int64_t>(kMemoryShare * static_cast<double>(info.totalram) *
                                    info.mem_unit);
+}
+
+/// Has a folder that results go to, or are found in, say that it is a store.
+void mark_as_store(const Store& store, bool is_written, bool has_results) {
+  if (is_written) return store.prepare();
+  if (!has_results) return;
+  try {
+    store.prepare();
+  } catch (const InputError&) {
+    return;  // one that is there to be read only stays as it is
+  }
 }
 
 std::int64_t processors() { return std::max(1u, std::thread::hardware_concurrency()); }
@@ -87,7 +97,8 @@ std::int64_t RunCommand::wanted_memory() const {
   if (memory.empty()) return machine_memory();
   const std::optional<double> bytes = parse_bytes(memory);
   if (!bytes || *bytes < 1) {
-    throw UsageError("--memory '" + memory + "' is no amount of memory; write e.g. 16GB");
+    throw UsageError("--memory '" + memory +
+                     "' is no amount of memory; write e.g. 16GB, a number and a unit");
   }
   return static_cast<std::int64_t>(*bytes);
 }
@@ -168,8 +179,8 @@ RunSettings RunCommand::settings(const Description& description) const {
   return settings;
 }
 
-int RunCommand::run_locally(const Description& description, const Plan& plan,
-                            const std::vector<StepState>& states) const {
+RunCommand::Round RunCommand::run_locally(const Description& description, const Plan& plan,
+                                          const std::vector<StepState>& states) const {
   const std::vector<StepOrder> orders = [&] {
     std::vector<StepOrder> stale = stale_orders(plan, states, 0);
     const std::int64_t threads = threads_for(stale);
@@ -190,8 +201,9 @@ int RunCommand::run_locally(const Description& description, const Plan& plan,
   return conclude(folder, orders, complaint);
 }
 
-int RunCommand::run_on_cluster(const Description& description, const Plan& plan,
-                               const std::vector<StepState>& states) const {
+RunCommand::Round RunCommand::run_on_cluster(const Description& description, const Plan& plan,
+                                             const std::vector<StepState>& states) const {
+  check_slurm_takes(plan.store);
   std::vector<std::string> options = description.sbatch_options;
   for (const std::string& text : sbatch) {
     options.push_back(checked_sbatch_options(text, {"--sbatch " + text}));
@@ -208,7 +220,7 @@ int RunCommand::run_on_cluster(const Description& description, const Plan& plan,
   write_slurm_scripts(scripts, folder, orders, slurm_arrays(orders), options);
   if (script_only) {
     if (!quiet) fmt::print("submit with {}\n", (scripts / kSubmitScript).string());
-    return 0;
+    return {};
   }
   const std::size_t cancelled = cancel_superseded(queue, store, folder.settings());
   if (cancelled > 0 && !quiet) {
@@ -228,7 +240,7 @@ int RunCommand::run_on_cluster(const Description& description, const Plan& plan,
         (folder.path() / "logs").string());
     std::fflush(stdout);
   }
-  if (!wait) return 0;
+  if (!wait) return {};
   RunDisplay display(folder, orders, quiet);
   wait_for_slurm(folder, orders, [&] { display.update(); });
   display.finish();
@@ -237,26 +249,28 @@ int RunCommand::run_on_cluster(const Description& description, const Plan& plan,
 }
 
 /// Prints what became of the steps.
-/// \return the exit code of the first that failed
 /// \param complaint  what there is to say where steps were not run though none has failed
-int RunCommand::conclude(const RunFolder& folder, const std::vector<StepOrder>& orders,
-                         const std::string& complaint) const {
+RunCommand::Round RunCommand::conclude(const RunFolder& folder,
+                                       const std::vector<StepOrder>& orders,
+                                       const std::string& complaint) const {
   if (!quiet) std::fputs(run_table(folder, orders).c_str(), stdout);
-  int failure = 0;
-  bool damaged = false;
+  Round round;
   bool complete = true;
   for (const StepOrder& order : orders) {
     const std::optional<StepOutcome> outcome = folder.outcome(order.id);
-    if (outcome && outcome->kind == StepOutcome::Kind::damaged) damaged = true;
-    if (outcome && failure == 0) failure = outcome->exit_code;
-    if (!outcome) complete = false;
+    if (!outcome) {
+      complete = false;
+      continue;
+    }
+    if (outcome->kind == StepOutcome::Kind::damaged) round.damaged = true;
+    if (!outcome->file.empty()) round.made.insert(order.id);
+    if (round.exit_code == 0) round.exit_code = outcome->exit_code;
   }
   if (interrupt_requested()) throw Interrupted();
-  if (damaged) return kDamaged;
-  if (failure == 0 && !complete) {
+  if (!round.damaged && round.exit_code == 0 && !complete) {
     throw Error(ExitCode::internal, "the run was cut short; run again to go on\n" + complaint);
   }
-  return failure;
+  return round;
 }
 
 /// Writes what the user wants of steps that had been made before.
@@ -286,7 +300,9 @@ int RunCommand::run() {
   check_rule_name(from, description, "--from");
   for (const std::string& name : forced) check_rule_name(name, description, "--force");
 
-  for (int round = 1;; ++round) {
+  std::set<std::string> made;
+  int fruitless = 0;
+  for (bool is_first = true;; is_first = false) {
     KnownDigests digests(store);
     const std::vector<StepState> states = survey(
         plan, store, digests, forced_rules, verify ? Store::Check::content : Store::Check::stamp);
@@ -296,7 +312,7 @@ int RunCommand::run() {
         write_stderr(fmt::format("strake: warning: {}; it is made again\n", state.reason));
       }
     }
-    if (dry_run || (explain && round == 1)) print_plan(plan, states);
+    if (dry_run || (explain && is_first)) print_plan(plan, states);
     const auto stale = std::count_if(states.begin(), states.end(), [](const StepState& state) {
       return state.status == StepState::Status::stale;
     });
@@ -313,21 +329,25 @@ int RunCommand::run() {
     for (std::size_t s = 0; s < states.size(); ++s) {
       if (states[s].entry) store.touch(entry_name(plan.steps[s], states[s]));
     }
-    int exit_code = 0;
+    Round round;
+    mark_as_store(store, stale > 0, cached > 0);
     if (stale > 0) {
-      store.prepare();
-      exit_code = engine == kSlurm ? run_on_cluster(description, plan, states)
-                                   : run_locally(description, plan, states);
+      round = engine == kSlurm ? run_on_cluster(description, plan, states)
+                               : run_locally(description, plan, states);
     }
     write_outputs(plan, states, digests);
-    if (exit_code == kDamaged && round < kMostRounds) {
+    if (round.damaged) {
+      const std::size_t before = made.size();
+      made.merge(round.made);
+      fruitless = made.size() > before ? 0 : fruitless + 1;
+      if (fruitless == kMostFruitless) {
+        throw InputError(
+            "inputs of steps keep being changed or damaged while they are in use; see above");
+      }
       forced_rules.clear();
       continue;
     }
-    if (exit_code == kDamaged) {
-      throw InputError(
-          "inputs of steps keep being changed or damaged while they are in use; see above");
-    }
+    const int exit_code = round.exit_code;
     if (quiet || exit_code != 0) return exit_code;
     if (script_only && stale == 0) {
       fmt::print("nothing is stale: there are no scripts to write, {} steps in the store\n",

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -49,12 +50,19 @@ struct RunCommand {
                      KnownDigests& digests) const;
   [[nodiscard]] std::int64_t threads_for(const std::vector<StepOrder>& orders) const;
   [[nodiscard]] RunSettings settings(const Description& description) const;
-  int run_locally(const Description& description, const Plan& plan,
-                  const std::vector<StepState>& states) const;
-  int run_on_cluster(const Description& description, const Plan& plan,
-                     const std::vector<StepState>& states) const;
-  int conclude(const RunFolder& folder, const std::vector<StepOrder>& orders,
-               const std::string& complaint) const;
+  /// What became of the steps that were stale.
+  struct Round {
+    int exit_code = 0;  ///< of the first step that failed
+    bool damaged =
+        false;  ///< an input was damaged or went away: what is stale now has to be found out
+    std::set<std::string> made;  ///< ids of steps whose results are there, or were
+  };
+  Round run_locally(const Description& description, const Plan& plan,
+                    const std::vector<StepState>& states) const;
+  Round run_on_cluster(const Description& description, const Plan& plan,
+                       const std::vector<StepState>& states) const;
+  Round conclude(const RunFolder& folder, const std::vector<StepOrder>& orders,
+                 const std::string& complaint) const;
   [[nodiscard]] const char* done_to_steps() const;
 };
 

@@ -62,13 +62,21 @@ Json options_by_stage(bool lists) {
 }
 
 Json resources_schema() {
-  const Json amount = {{"type", {"string", "number"}}};
+  // Text with a unit, or 0.
+  const auto amount = [](const std::string& units) -> Json {
+    return {{"type", {"string", "integer"}},
+            {"pattern", "^[0-9.eE+-]+ *(" + units + ")$|^0$"},
+            {"minimum", 0},
+            {"maximum", 0}};
+  };
+  const Json bytes = amount("B|[kKMGT]B|[KMG]iB|[KMG]");
+  const Json time = amount("us|ms|s|min|h|d");
   return {{"type", "object"},
           {"properties",
-           {{"memory", amount},
-            {"memory-per-face", amount},
-            {"time", amount},
-            {"time-per-face", amount},
+           {{"memory", bytes},
+            {"memory-per-face", bytes},
+            {"time", time},
+            {"time-per-face", time},
             {"threads", {{"type", "integer"}, {"minimum", 0}}},
             {"parts", {{"type", "integer"}, {"minimum", 1}}}}},
           {"additionalProperties", false}};

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
 
 #include "common/artifact/text_file.h"
 #include "common/core/error.h"
+#include "common/core/text.h"
 #include "strake/run/stage_command.h"
 
 namespace strake {
@@ -54,11 +54,12 @@ std::string directive_value(const std::string& text) {
   return value + "\"";
 }
 
-/// Text that stays on one line of comment, whatever is in a file name.
-std::string comment_text(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, '?');
-  return text;
+/// Where Slurm writes what a task says. It fills in what follows '%' in the folder, too, also where
+/// the name is relative and it puts the folder before it.
+std::string log_pattern(const fs::path& run) {
+  std::string pattern;
+  for (const char c : (run / "logs").string()) pattern += c == '%' ? "%%" : std::string(1, c);
+  return pattern + "/slurm-%A_%a.txt";
 }
 
 /// Task indices as sbatch takes them: "0-3,5".
@@ -95,7 +96,7 @@ class ScriptWriter {
         "# {}: {} of {} models. A task is one step; its index is the place of its model in\n"
         "# {}\n",
         array.name, array.rule, array.tasks.size(),
-        comment_text(folder_.settings().pipeline.string()));
+        on_one_line(folder_.settings().pipeline.string()));
     text += fmt::format(
         "#SBATCH --job-name={}\n"
         "#SBATCH --array={}\n"
@@ -104,17 +105,17 @@ class ScriptWriter {
         array.threads, array.memory_mib, array.minutes);
     text += fmt::format(
         "#SBATCH --chdir={}\n"
-        "#SBATCH --output=logs/slurm-%A_%a.txt --open-mode=append\n"
+        "#SBATCH --output={} --open-mode=append\n"
         "#SBATCH --requeue --kill-on-invalid-dep=yes\n"
         "# Environment and limits of the shell that submits do not matter.\n"
         "#SBATCH --export=NIL --propagate=NONE\n",
-        directive_value(folder_.path().string()));
+        directive_value(folder_.path().string()), directive_value(log_pattern(folder_.path())));
     for (const std::string& option : options_) text += "#SBATCH " + option + "\n";
     text += "\ncase $SLURM_ARRAY_TASK_ID in\n";
     for (const auto& [index, position] : array.tasks) {
       const StepOrder& order = orders_[position];
       text += fmt::format("  # {}\n  #   {}\n  {}) step={} ;;\n", order.title,
-                          comment_text(command(order)), index, order.id);
+                          on_one_line(command(order)), index, order.id);
     }
     text += fmt::format("esac\nexec {} step {} \"$step\"\n",
                         shell_word((program_folder() / "strake").string()),
@@ -127,7 +128,7 @@ class ScriptWriter {
         "#!/bin/bash\n"
         "# Submits {} steps as {} job arrays:\n"
         "# {}\n",
-        orders_.size(), arrays_.size(), comment_text(folder_.settings().pipeline.string()));
+        orders_.size(), arrays_.size(), on_one_line(folder_.settings().pipeline.string()));
     text += kSubmitFunction;
     for (const SlurmArray& array : arrays_) {
       text += "submit " + array.name;
@@ -163,6 +164,14 @@ void write_program(const fs::path& file, const std::string& text) {
 }
 
 }  // namespace
+
+void check_slurm_takes(const fs::path& store) {
+  if (store.string().find('\\') == std::string::npos) return;
+  throw UsageError(
+      fmt::format("the store '{}' has a backslash in its path, below which Slurm cannot write; "
+                  "rename that folder, or name another one with 'store:' in the pipeline file",
+                  store.string()));
+}
 
 void write_slurm_scripts(const fs::path& target, const RunFolder& folder,
                          const std::vector<StepOrder>& orders,

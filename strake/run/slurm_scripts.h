@@ -11,6 +11,9 @@ namespace strake {
 
 inline constexpr const char* kSubmitScript = "submit.sh";
 
+/// \throw UsageError where jobs could not write their logs into this store, for what its path holds
+void check_slurm_takes(const std::filesystem::path& store);
+
 /// Writes a job script per array, and `submit.sh`, which submits them in order and prints a line
 /// "JOB NAME" for each. They can be read, changed and run by hand.
 /// \param target   folder to write to; is made where it is missing

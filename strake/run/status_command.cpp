@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/artifact/store/store.h"
+#include "common/core/error.h"
 #include "strake/commands.h"
 #include "strake/run/pipeline_options.h"
 #include "strake/run/schema.h"
@@ -98,9 +99,22 @@ void print_outputs(const std::vector<std::string>& files, bool all) {
              shown_path(files.front()), others);
 }
 
+/// Who asks for a check wants to know by the exit code. \throw InputError where there is damage
+void refuse_damage(const Plan& plan, const std::vector<StepState>& states) {
+  std::string text;
+  for (std::size_t s = 0; s < plan.steps.size(); ++s) {
+    if (!states[s].damaged || states[s].status != StepState::Status::stale) continue;
+    text +=
+        fmt::format("{}{}: {}", text.empty() ? "" : "\n", plan.steps[s].title, states[s].reason);
+  }
+  if (!text.empty()) throw InputError(text + "\n'strake run' makes it again");
+}
+
 int StatusCommand::run() const {
   const Description description = pipeline.read();
-  const Plan plan = make_plan(description, pipeline.selection(description));
+  Selection selection = pipeline.selection(description);
+  selection.leave_out_missing = true;
+  const Plan plan = make_plan(description, selection);
   const Store store(plan.store);
   store.check_format();
   KnownDigests digests(store);
@@ -112,6 +126,9 @@ int StatusCommand::run() const {
     print_targets(plan, states);
     print_warned(states);
   }
+  for (const auto& [model, file] : plan.left_out) {
+    fmt::print("{:8} {}: there is no file '{}'\n", "missing", model, file.string());
+  }
   print_outputs(files_to_write(plan, states, digests), steps);
   double bytes = 0;
   std::size_t entries = 0;
@@ -120,6 +137,7 @@ int StatusCommand::run() const {
     ++entries;
   }
   fmt::print("store {}: {} results, {}\n", store.root().string(), entries, bytes_text(bytes));
+  if (verify) refuse_damage(plan, states);
   return 0;
 }
 

@@ -111,13 +111,17 @@ class Surveyor {
     }
   }
 
-  /// Why there is no artifact of this key: what differs from the most similar one there is.
+  /// Why there is no artifact of this key: what differs from the most similar one there is, of
+  /// several from that of this variant.
   std::string reason_for(const Step& step, const Provenance& provenance) {
+    const std::vector<Provenance::OptionRecord> usual = usual_provenance(step).options;
     std::vector<std::string> nearest;
     bool found = false;
     for (const Entry* entry : entries_of(step)) {
       const std::vector<std::string> all = differences(entry->provenance, provenance);
-      if (all.empty() || (found && all.size() >= nearest.size())) continue;
+      if (all.empty()) continue;
+      const bool is_own = entry->provenance.options == usual && all.size() == nearest.size();
+      if (found && all.size() >= nearest.size() && !is_own) continue;
       nearest = all;
       found = true;
     }

@@ -61,8 +61,10 @@ std::string suggestion(std::string_view name, const std::vector<std::string>& kn
 }
 
 YamlView YamlView::load(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream || !std::filesystem::is_regular_file(file)) {
+  std::error_code ignored;
+  std::ifstream stream;  // opened only then: opening a pipe waits for somebody who writes into it
+  if (std::filesystem::is_regular_file(file, ignored)) stream.open(file);
+  if (!stream.is_open()) {
     throw InputError(file.string() +
                      ": cannot be read; name the pipeline file with --file, or see 'strake run "
                      "--help'");

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <hdf5.h>
+#include <malloc.h>
 
 #include <functional>
 #include <random>
@@ -92,6 +93,36 @@ TEST_P(Damage, FlippedBitsNeverChangeWhatIsRead) {
   }
   // Most of a file is data under checksums; of sizes, most is the surface that only viewers read.
   EXPECT_GT(refused, GetParam() == ArtifactKind::size ? kFlips / 10 : kFlips / 2);
+}
+
+/// Where a group's links are damaged, HDF5 must not free what it never set.
+TEST_P(Damage, FlippedBitsInListsOfDatasetsDoNotCrash) {
+  write(file("a.hdf"), GetParam(), make_values(), make_provenance());
+  const std::string bytes = bytes_of(file("a.hdf"));
+  ::mallopt(M_PERTURB, 0x5a);  // no memory is zero by chance
+  int refused = 0;
+  int tried = 0;
+  // Blocks of HDF5 that hold names and the index of them.
+  for (const std::string block : {"BTHD", "BTLF", "FRHP", "FHDB"}) {
+    for (std::size_t at = bytes.find(block); at != std::string::npos;
+         at = bytes.find(block, at + 1)) {
+      for (const std::size_t behind : {5, 8, 11, 14, 17}) {
+        std::string damaged = bytes;
+        damaged.at(at + behind) = static_cast<char>(damaged.at(at + behind) ^ 4);
+        put_bytes(file("a.hdf"), damaged);
+        H5garbage_collect();
+        ++tried;
+        try {
+          read_artifact_info(file("a.hdf"));
+          check_picture(file("a.hdf"));
+        } catch (const InputError&) {
+          ++refused;
+        }
+      }
+    }
+  }
+  ::mallopt(M_PERTURB, 0);
+  EXPECT_EQ(refused, tried);
 }
 
 TEST_P(Damage, OtherKindsAreRefusedByName) {
@@ -192,16 +223,18 @@ TEST_F(Damage, WhatLiesElsewhereOrIsFilteredIsRefused) {
   const Values values = make_values();
   const char* name = "/size/along";
   const hsize_t count = values.size.along.size();
-  const auto refuses = [&](const std::function<void(hid_t)>& change) {
+  const auto refuses = [&](const char* part, const std::function<void(hid_t)>& change) {
     write(file("a.hdf"), ArtifactKind::size, values, make_provenance());
     edit([&](hid_t opened) {
       ASSERT_GE(H5Lmove(opened, name, opened, "/moved", H5P_DEFAULT, H5P_DEFAULT), 0);
       change(opened);
     });
-    EXPECT_NE(refusal(ArtifactKind::size, values).find(name), std::string::npos);
+    const std::string said = refusal(ArtifactKind::size, values);
+    EXPECT_NE(said.find(std::string("'") + name + "' " + part), std::string::npos) << said;
   };
-  const auto refuses_dataset = [&](hid_t type, const std::function<void(hid_t, hid_t)>& set) {
-    refuses([&](hid_t opened) {
+  const auto refuses_dataset = [&](const char* part, hid_t type,
+                                   const std::function<void(hid_t, hid_t)>& set) {
+    refuses(part, [&](hid_t opened) {
       const hid_t space = H5Screate_simple(1, &count, nullptr);
       const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
       set(creation, space);
@@ -218,25 +251,64 @@ TEST_F(Damage, WhatLiesElsewhereOrIsFilteredIsRefused) {
     });
   };
   write(file("b.hdf"), ArtifactKind::size, values, make_provenance());
-  refuses([&](hid_t opened) {
+  refuses("is missing", [&](hid_t opened) {
     H5Lcreate_external(file("b.hdf").c_str(), name, opened, name, H5P_DEFAULT, H5P_DEFAULT);
   });
-  refuses([&](hid_t opened) { H5Lcreate_soft("/moved", opened, name, H5P_DEFAULT, H5P_DEFAULT); });
-  refuses_dataset(H5T_IEEE_F64LE, [&](hid_t creation, hid_t) {
+  refuses("is missing",
+          [&](hid_t opened) { H5Lcreate_soft("/moved", opened, name, H5P_DEFAULT, H5P_DEFAULT); });
+  refuses_dataset("is in another file", H5T_IEEE_F64LE, [&](hid_t creation, hid_t) {
     H5Pset_external(creation, file("c.raw").c_str(), 0, count * sizeof(double));
   });
-  refuses_dataset(H5T_IEEE_F64LE, [&](hid_t creation, hid_t space) {
+  refuses_dataset("is put together", H5T_IEEE_F64LE, [&](hid_t creation, hid_t space) {
     H5Pset_virtual(creation, space, file("b.hdf").c_str(), name, space);
   });
-  refuses_dataset(H5T_IEEE_F64LE, [&](hid_t creation, hid_t) {
-    const hsize_t chunk = 2;  // so small that compressing makes it larger
-    H5Pset_chunk(creation, 1, &chunk);
-    H5Pset_deflate(creation, 1);
-  });
+  const hsize_t one = 1;  // so small that compressing makes it larger; the other makes it smaller
+  for (const hsize_t* chunk : {&one, &count}) {
+    refuses_dataset("is compressed (gzip)", H5T_IEEE_F64LE, [&](hid_t creation, hid_t) {
+      H5Pset_chunk(creation, 1, chunk);
+      if (chunk == &count) H5Pset_shuffle(creation);
+      H5Pset_deflate(creation, 9);
+    });
+  }
   const hid_t text = H5Tcopy(H5T_C_S1);
   H5Tset_size(text, H5T_VARIABLE);
-  refuses_dataset(text, [](hid_t, hid_t) {});
+  refuses_dataset("has a wrong number type", text, [](hid_t, hid_t) {});
   H5Tclose(text);
+}
+
+/// Texts as other programs write them.
+TEST_P(Damage, TextsInUtf8AreRead) {
+  const Values values = make_values();
+  const auto write_as_utf8 = [&](bool has_length) {
+    write(file("a.hdf"), GetParam(), values, make_provenance());
+    edit([&](hid_t opened) {
+      for (const char* name : {"kind", "mesh_id", "content", "provenance"}) {
+        const hid_t before = H5Aopen(opened, name, H5P_DEFAULT);
+        const hid_t fixed = H5Aget_type(before);
+        std::string text(H5Tget_size(fixed), ' ');
+        ASSERT_GE(H5Aread(before, fixed, text.data()), 0);
+        H5Aclose(before);
+        H5Adelete(opened, name);
+        const hid_t type = H5Tcopy(H5T_C_S1);
+        H5Tset_size(type, has_length ? text.size() : H5T_VARIABLE);
+        H5Tset_cset(type, H5T_CSET_UTF8);
+        const hid_t space = H5Screate(H5S_SCALAR);
+        const hid_t after = H5Acreate2(opened, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+        const char* characters = text.c_str();
+        const void* data = &characters;
+        ASSERT_GE(H5Awrite(after, type, has_length ? characters : data), 0);
+        H5Aclose(after);
+        H5Sclose(space);
+        H5Tclose(type);
+        H5Tclose(fixed);
+      }
+    });
+  };
+  write_as_utf8(true);
+  EXPECT_TRUE(reads_equal(file("a.hdf"), GetParam(), values));
+  write_as_utf8(false);
+  const std::string said = refusal(GetParam(), values);
+  EXPECT_NE(said.find("'kind' is a text of variable length"), std::string::npos) << said;
 }
 
 TEST_F(Damage, BlocksOfADamagedMeshAreRefused) {

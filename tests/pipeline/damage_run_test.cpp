@@ -44,6 +44,24 @@ class Damage : public PipelineTest {
     EXPECT_EQ(must("strake run"), "0 steps run, 8 in the store\n");
   }
 
+  /// A program of a stage that runs this first.
+  void put_before(const std::string& stage, const std::string& commands) {
+    const std::string program = "bin/strake-" + stage;
+    fs::remove(file(program));
+    put(program, "#!/bin/sh\n" + commands + "\nexec " STRAKE_BIN "/strake-" + stage + " \"$@\"\n");
+    fs::permissions(file(program), fs::perms::owner_all);
+  }
+  /// All programs in the folder "bin", to put others in place of some.
+  void copy_programs() {
+    fs::create_directory(file("bin"));
+    for (const auto& program : fs::directory_iterator(STRAKE_BIN)) {
+      fs::create_symlink(program.path(), file("bin") / program.path().filename());
+    }
+    // `strake` finds the stages beside itself, so it has to be a copy.
+    fs::remove(file("bin/strake"));
+    fs::copy_file(STRAKE_BIN "/strake", file("bin/strake"));
+  }
+
   std::map<std::string, std::string> whole_;  ///< digests of all artifacts
   fs::path field_;
   fs::path manifest_;
@@ -99,6 +117,35 @@ TEST_F(Damage, StatusAndDryRunTellAndLeaveItAlone) {
   EXPECT_EQ(snapshot(), before);
 }
 
+/// Scripts go by the exit code.
+TEST_F(Damage, VerifiedStatusFails) {
+  must("strake status --verify");
+  fs::remove(artifact("torus/trace-", "lines.hdf"));
+  flip_bit(field_);
+  const auto before = snapshot();
+  for (const std::string steps : {"", " --steps"}) {
+    const Outcome outcome = run("strake status --verify" + steps);
+    EXPECT_EQ(outcome.exit_code, kBadInput);
+    EXPECT_NE(outcome.out.find("damaged"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("results, "), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.err.find("torus smooth: damaged: field.hdf has other bytes"),
+              std::string::npos)
+        << outcome.err;
+  }
+  EXPECT_EQ(snapshot(), before);
+  must("strake run -q");
+  must("strake status --verify");
+}
+
+TEST_F(Damage, AMissingProgramIsNamed) {
+  copy_programs();
+  fs::remove(file("bin/strake-trace"));
+  const Outcome outcome = shell("bin/strake run --force trace");
+  EXPECT_EQ(outcome.exit_code, kBadInput) << outcome.err;
+  EXPECT_NE(outcome.err.find("bin/strake-trace' cannot be started"), std::string::npos)
+      << outcome.err;
+}
+
 TEST_F(Damage, SeveralAtOnce) {
   flip_bit(field_);
   fs::remove(artifact("torus/import-", "mesh.hdf"));
@@ -135,20 +182,11 @@ TEST_F(Rot, IsFoundByVerify) {
 
 /// Damage between the check of an input and its use: by a program in place of a stage's.
 TEST_F(Damage, WhileTheConsumerRuns) {
-  fs::create_directory(file("bin"));
-  for (const auto& program : fs::directory_iterator(STRAKE_BIN)) {
-    fs::create_symlink(program.path(), file("bin") / program.path().filename());
-  }
-  // `strake` finds the stages beside itself, so it has to be a copy.
-  fs::remove(file("bin/strake"));
-  fs::copy_file(STRAKE_BIN "/strake", file("bin/strake"));
+  copy_programs();
   for (const char* damage :
        {"printf x | dd of=\"$2\" bs=1 seek=999 conv=notrunc", "rm -r \"${2%/*}\"", ": > \"$2\""}) {
-    fs::remove(file("bin/strake-trace"));
     const std::string once = file("once").string();
-    put("bin/strake-trace", "#!/bin/sh\nif [ ! -e " + once + " ]; then : > " + once + "; " +
-                                damage + " 2>&-; fi\nexec " STRAKE_BIN "/strake-trace \"$@\"\n");
-    fs::permissions(file("bin/strake-trace"), fs::perms::owner_all);
+    put_before("trace", "if [ ! -e " + once + " ]; then : > " + once + "; " + damage + " 2>&-; fi");
     fs::remove_all(artifact("torus/trace-", "lines.hdf").parent_path());
     const Outcome outcome = shell("bin/strake run");
     EXPECT_EQ(outcome.exit_code, 0) << damage << outcome.err;
@@ -158,6 +196,27 @@ TEST_F(Damage, WhileTheConsumerRuns) {
     EXPECT_EQ(artifacts(), whole_);
     fs::remove(file("once"));
   }
+}
+
+/// As where `strake gc` is run again and again: what a step needs goes, but the run gets on.
+TEST_F(Damage, InputsMayGoAsOftenAsTheRunGetsOn) {
+  copy_programs();
+  for (const std::string stage : {"tensor", "smooth", "trace", "mesh", "evaluate"}) {
+    const std::string once = file("once-" + stage).string();
+    put_before(stage, "if [ ! -e " + once + " ]; then : > " + once + "; rm -r \"${1%/*}\"; fi");
+  }
+  fs::remove_all(file("store"));
+  const Outcome outcome = shell("bin/strake run");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(artifacts(), whole_);
+}
+
+TEST_F(Damage, ARunThatDoesNotGetOnEnds) {
+  copy_programs();
+  put_before("mesh", "rm -r \"${1%/*}\"");
+  const Outcome outcome = shell("bin/strake run --set trace.seed=7");
+  EXPECT_EQ(outcome.exit_code, kBadInput) << outcome.err;
+  EXPECT_NE(outcome.err.find("keep being changed or damaged"), std::string::npos) << outcome.err;
 }
 
 }  // namespace

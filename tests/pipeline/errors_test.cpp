@@ -50,6 +50,22 @@ TEST_F(Errors, MissingAndUnreadableFiles) {
   for (const char* output : {"x.obj", "t.hdf"}) EXPECT_FALSE(std::filesystem::exists(file(output)));
 }
 
+/// Opening one waits for somebody who writes into it, and signals do not end that.
+TEST_F(Errors, PipesAreRefusedAtOnce) {
+  ASSERT_EQ(shell("mkfifo pipe.obj").exit_code, 0);
+  for (const std::string command :
+       {"strake remesh pipe.obj -o x.obj", "strake info pipe.obj", "strake check pipe.obj",
+        "strake check mesh.hdf pipe.obj", "strake-import pipe.obj -o m.hdf",
+        "strake-tensor pipe.obj -o t.hdf", "strake run -f pipe.obj", "strake status -f pipe.obj",
+        "strake remesh torus.ply -o x.obj --guides pipe.obj",
+        "strake-import torus.ply -o m.hdf --feature-edges pipe.obj",
+        "strake-render torus.ply -o x.png --lines pipe.obj"}) {
+    const Outcome outcome = shell("timeout -s KILL 10 " STRAKE_BIN "/" + command);
+    EXPECT_EQ(outcome.exit_code, kBadInput) << command << "\n" << outcome.err;
+    EXPECT_NE(outcome.err.find("pipe.obj"), std::string::npos) << outcome.err;
+  }
+}
+
 TEST_F(Errors, LengthsInModelUnitsThatAreOutOfRange) {
   must_fail(kUsage, "strake-tensor mesh.hdf -o t.hdf --radius 1e9", "option --radius: '1e+09' is ");
   must_fail(kUsage, "strake-tensor mesh.hdf -o t.hdf --radius 1e9", "between 0.01% and 50%");

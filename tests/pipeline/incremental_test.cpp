@@ -46,6 +46,17 @@ TEST_F(Incremental, AnotherSeedRunsTraceAndWhatFollows) {
   EXPECT_EQ(bytes("out/torus.obj"), before) << "the output is that of the present options again";
 }
 
+TEST_F(Incremental, TheFileOfAnotherModelMayBeGone) {
+  pipeline("models: [torus.obj, gone.obj]\noptions: {trace: {seed: 1}}\n");
+  EXPECT_EQ(must("strake run torus"), "0 steps run, 6 in the store\n");
+  const std::string status = must("strake status");
+  EXPECT_NE(status.find("torus/default     ready"), std::string::npos) << status;
+  EXPECT_NE(status.find("missing  gone: there is no file '"), std::string::npos) << status;
+  for (const std::string command : {"run", "run gone", "gc --unreachable"}) {
+    must_fail(kUsage, "strake " + command, "gone.obj'");
+  }
+}
+
 TEST_F(Incremental, TouchedModelRunsNothing) {
   fs::last_write_time(file("torus.obj"), fs::file_time_type::clock::now());
   expect_nothing_to_do();
@@ -104,6 +115,16 @@ TEST_F(Incremental, ACopiedStoreIsAsGood) {
   fs::copy(file("old"), file("store"), fs::copy_options::recursive);
   fs::remove_all(file("old"));
   expect_nothing_to_do();
+}
+
+/// What differs is told from the result of the same variant, wherever that of another lies.
+TEST_F(Incremental, ExplainComparesWithTheSameVariant) {
+  pipeline("models: [torus.obj]\nvariants: {v: {trace: {seed: [1, 2, 3, 4]}}}\n");
+  must("strake run -q --until trace");
+  for (const std::string seed : {"1", "2", "3", "4"}) {
+    const std::string said = must("strake run -n --explain --set trace.seed=77 torus/v-" + seed);
+    EXPECT_NE(said.find("seed " + seed + " -> 77"), std::string::npos) << said;
+  }
 }
 
 TEST_F(Incremental, VariantsShareWhatTheyDoNotChange) {

@@ -64,6 +64,7 @@ TEST_F(RunOptions, UntilAndFrom) {
   must_fail(kUsage, "strake run --set trace.seed", "trace.seed=7");
   must_fail(kUsage, "strake run tours", "did you mean 'torus'");
   must_fail(kUsage, "strake run --memory lots", "16GB");
+  must_fail(kUsage, "strake run --memory 16", "16GB, a number and a unit");
   must_fail(kUsage, "strake run -n --memory lots", "16GB");
   must_fail(kUsage, "strake run --set trace.sed=3", "error: --set trace.sed=3: stage 'trace'");
   must_fail(kUsage, "strake run --set trace.faces=9 --set trace.vertices=9", "exclude each other");
@@ -322,6 +323,8 @@ TEST_F(Collection, WhatWasUsedLastStays) {
   must_fail(kUsage, "strake gc", "say what may go");
   must_fail(kUsage, "strake gc --unreachable torus", "torus");  // or all other models would go
   must_fail(kUsage, "strake gc --max-size lots", "10GB");
+  must_fail(kUsage, "strake gc --max-size 10", "10GB, a number and a unit");
+  must_fail(kUsage, "strake gc --older-than 30", "30d, a number and a unit");
 }
 
 TEST_F(Collection, FoldersOfRunsThatBeginStay) {
@@ -420,6 +423,32 @@ TEST_F(Collection, NothingGoesFromAFolderThatIsNoStore) {
       "models: {torus: {sample: {kind: torus, faces: 2000}}}\n");
   must_fail(kBadInput, "strake gc --unreachable", "is no store");
   EXPECT_TRUE(fs::exists(file("photos/2024/summer-0123456789abcdef")));
+}
+
+/// As from cron, for a store that several pipelines share.
+TEST_F(Collection, AStoreThatIsNamedNeedsNoPipeline) {
+  fs::remove(file("pipeline.yaml"));
+  const std::string said = must("strake gc --store store --older-than 1h");
+  EXPECT_NE(said.find("10 results left"), std::string::npos) << said;
+  must_fail(kBadInput, "strake gc --store stroe --older-than 1h",
+            "stroe': there is no such folder");
+  must_fail(kUsage, "strake gc --store 'a\nb' --older-than 1h", "control characters");
+  must_fail(kBadInput, "strake gc --store store --unreachable", "pipeline.yaml");
+  must_fail(kBadInput, "strake gc --older-than 1h", "pipeline.yaml");
+  EXPECT_EQ(entries().size(), 10u);
+  must("strake gc --store store --max-size 0");
+  EXPECT_EQ(entries().size(), 0u);
+}
+
+TEST_F(Collection, AStoreWithoutItsFileGetsOneWhereResultsAreFound) {
+  fs::remove(file("store/strake-store.json"));
+  must_fail(kBadInput, "strake gc --max-size 0", "'strake run' find results there");
+  must("strake run --dry-run");
+  EXPECT_FALSE(fs::exists(file("store/strake-store.json")));
+  EXPECT_EQ(must("strake run"), "0 steps run, 7 in the store\n");
+  must("strake gc --older-than 1h");
+  put("store/strake-store.json", "");
+  must_fail(kBadInput, "strake run", "strake-store.json' is damaged");
 }
 
 TEST_F(Collection, WhatIsBeingMadeStays) {

@@ -232,6 +232,64 @@ class Errors(unittest.TestCase):
                     lambda: strake.smooth(one, strake.tensor(other)))
         self.assertTrue(issubclass(strake.InputError, ValueError))
 
+    def test_wrong_kinds_name_the_argument(self):
+        vertices, faces = torus(24, 12)
+        mesh = strake.import_mesh(vertices, faces)
+        tensor = strake.tensor(mesh)
+        field = strake.smooth(mesh, tensor)
+        lines = strake.trace(mesh, field, vertices_wanted=100)
+        quads = strake.mesh(mesh, lines)
+        for part, work in (
+                ("mesh is a TensorField; give a TriMesh", lambda: strake.smooth(tensor, mesh)),
+                ("tensor is a NoneType", lambda: strake.smooth(mesh, None)),
+                ("candidate is a LineSet", lambda: strake.evaluate(mesh, lines)),
+                ("lines is a QuadMesh", lambda: strake.size(mesh, field, quads, lines)),
+                ("quads is a LineSet", lambda: strake.size(mesh, field, lines, lines)),
+                ("quads is a TriMesh", lambda: strake.refine(mesh, mesh)),
+                ("field is a TensorField", lambda: strake.fit(mesh, quads, field=tensor)),
+                ("field is a LineSet", lambda: strake.evaluate(mesh, quads, field=lines)),
+                ("size is a float", lambda: strake.trace(mesh, field, size=0.1)),
+                ("mesh is a ndarray", lambda: strake.tensor(vertices)),
+                ("lines is a TriMesh", lambda: strake.line_points(mesh, mesh)),
+                ("labels is a list", lambda: strake.polygons(vertices, faces, labels=[1])),
+                ("faces are neither", lambda: strake.polygons(vertices, 7)),
+                ("faces: numbers", lambda: strake.polygons(vertices, faces.astype(str))),
+                ("vertices: numbers", lambda: strake.polygons("none", faces)),
+                ("vertices: no array", lambda: strake.polygons([[0, 0, 0], [1, 0]], faces)),
+                ("guides are no list", lambda: strake.smooth(mesh, tensor, guides=3)),
+                ("density: numbers", lambda: strake.trace(mesh, field, density="much")),
+                ("threads: -5", lambda: strake.tensor(mesh, threads=-5)),
+                ("threads is a float", lambda: strake.remesh(vertices, faces, threads=1.5)),
+                ("progress is a int", lambda: strake.tensor(mesh, progress=1))):
+            self.raises(strake.UsageError, part, work)
+
+    def test_masked_elements_are_refused(self):
+        vertices, faces = torus(24, 12)
+        hidden = np.ma.array(vertices, mask=vertices > 1)
+        self.raises(strake.InputError, "vertices: elements are masked",
+                    lambda: strake.polygons(hidden, faces))
+        self.raises(strake.InputError, "faces: elements are masked",
+                    lambda: strake.polygons(vertices, np.ma.array(faces, mask=faces == 3)))
+        names = np.ma.array(["a"] * len(faces), mask=[True] + [False] * (len(faces) - 1))
+        self.raises(strake.InputError, "labels 'm': elements are masked",
+                    lambda: strake.polygons(vertices, faces, labels={"m": names}))
+        nothing_hidden = strake.polygons(np.ma.array(vertices), faces)
+        np.testing.assert_array_equal(nothing_hidden.vertices, vertices)
+
+    def test_colours_are_shares_or_bytes(self):
+        vertices, faces = torus(24, 12)
+        shades = np.arange(3 * len(vertices)).reshape(-1, 3) % 256
+        for kind in (np.uint8, np.int64):
+            given = strake.polygons(vertices, faces, colours=shades.astype(kind)).colours
+            np.testing.assert_array_equal(given[:, :3], shades / 255)
+            np.testing.assert_array_equal(given[:, 3], 1)
+        for wrong, part in ((shades + 1, "0 to 255"), (shades - 1, "0 to 255"),
+                            (shades * np.nan, "finite"), (shades + np.inf, "finite")):
+            self.raises(strake.InputError, part,
+                        lambda: strake.polygons(vertices, faces, colours=wrong))
+        dark = strake.polygons(vertices, faces, colours=shades[:, [0, 0, 0]] > 99).colours
+        self.assertEqual(dark.max(), 1)
+
     def test_unusable_faces_and_vertices_are_repaired_and_told(self):
         vertices, faces = torus(24, 12)
         bad = np.concatenate([faces, [[0, 1, 10**6], [0, -1, 2], [0, 0, 1]]])

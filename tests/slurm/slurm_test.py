@@ -222,6 +222,10 @@ class SlurmTest:
                               "--array=7"], "--array")):
             answer = self.call([self.strake, "run", *words], self.reference, 2)
             check(said in answer, f"{words} is refused with '{answer}'")
+        folder = self.pipeline("back\\slash")
+        answer = self.call([self.strake, "submit"], folder, 2)
+        check("a backslash in its path" in answer, answer)
+        check(not runs_in(folder), "a run that is refused has a folder")
         without = call([self.strake, "submit", "--set", "trace.seed=9"], self.reference,
                        {"PATH": "/nonexistent"}, 3)
         check("not installed" in without, f"without Slurm it says '{without}'")
@@ -319,7 +323,7 @@ class SlurmTest:
         return re.search(r'--job-name="(.*)"', script.read_text())[1] if script else "none"
 
     def scripts_by_hand(self):
-        folder = self.pipeline("by hand")
+        folder = self.pipeline("by%20hand")  # "%20h" is something to Slurm
         answer = call([self.strake, "submit", "--script-only", "-o", "job scripts", "saddle/seed-1",
                        "torus/seed-2"], folder, {"PATH": "/nonexistent"})
         submit = folder / "job scripts/submit.sh"
@@ -335,6 +339,7 @@ class SlurmTest:
         wait_for("an empty queue", lambda: not self.start_requeued())
         missing = sorted(orders_of(run).keys() - outcomes_of(run).keys())
         check(not missing, f"not run: {missing}")
+        check(any((run / "logs").glob("slurm-*_*.txt")), "there are no logs of Slurm")
         check_equal_results(folder, self.reference, r"out/(saddle-seed-1|torus-seed-2)")
 
     def start_requeued(self, but=None):

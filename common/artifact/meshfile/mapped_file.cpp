@@ -14,14 +14,15 @@
 namespace strake::meshfile {
 
 MappedFile::MappedFile(const std::filesystem::path& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  // Without waiting for whoever writes into a pipe, which is refused anyway.
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   struct stat status = {};
   int error = 0;
   if (descriptor < 0 || ::fstat(descriptor, &status) != 0) {
     error = errno;
   } else if (!S_ISREG(status.st_mode)) {
     ::close(descriptor);
-    throw InputError(fmt::format("'{}' is not a regular file", path.string()));
+    throw InputError(fmt::format("'{}' is not a regular file; give one", path.string()));
   } else if (status.st_size > 0) {
     size_ = static_cast<std::size_t>(status.st_size);
     void* data = ::mmap(nullptr, size_, PROT_READ, MAP_PRIVATE | MAP_POPULATE, descriptor, 0);

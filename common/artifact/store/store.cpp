@@ -130,6 +130,12 @@ void Store::check_format() const {
   if (!stream) return;
   const Json json = Json::parse(stream, nullptr, false);
   const Json format = json.is_object() ? json.value("format", Json()) : Json();
+  if (format.is_null()) {
+    throw InputError(
+        fmt::format("'{}' is damaged: it does not say the format of the store; remove "
+                    "it, and 'strake run' writes it again",
+                    (root_ / kFormatFile).string()));
+  }
   if (format != kStoreFormat) {
     throw InputError(
         fmt::format("store '{}' has format '{}', and this program knows {}: another version of "
@@ -142,7 +148,8 @@ void Store::require_own() const {
   std::error_code ignored;
   if (!fs::exists(root_, ignored) || fs::exists(root_ / kFormatFile, ignored)) return;
   throw InputError(
-      fmt::format("'{}' is no store: it has no '{}'; correct 'store' in the pipeline file",
+      fmt::format("'{}' is no store: it has no '{}'; name another folder, or, where that file was "
+                  "lost, have 'strake run' find results there: it writes the file again",
                   root_.string(), kFormatFile));
 }
 

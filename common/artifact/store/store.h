@@ -64,11 +64,11 @@ class Store {
   /// For small things that belong to the store but to no entry: "runs", "digests".
   [[nodiscard]] std::filesystem::path side_folder(const std::string& name) const;
 
-  /// \throw InputError where it is no folder, or a newer strake uses it
+  /// \throw InputError where it is no folder, or a newer strake uses it, or nobody knows
   void check_format() const;
   /// \throw InputError where the folder is there, but holds no store: nothing may go from it
   void require_own() const;
-  /// Makes the folder where it is missing. \throw InputError where that fails
+  /// Makes the folder, and the file that says that it is a store, where they are missing. \throw InputError where that fails
   void prepare() const;
 
   /// The entry, if it is there and whole.

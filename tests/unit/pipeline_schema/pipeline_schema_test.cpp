@@ -73,6 +73,9 @@ TEST(PipelineSchema, AcceptsEveryForm) {
   EXPECT_TRUE(
       accepts("{version: 1, models: [a.obj], stages: {tensor: {resources: {parts: 4, "
               "memory: 2GB}}}}"));
+  EXPECT_TRUE(accepts(
+      "{version: 1, models: [a.obj], stages: {tensor: {resources: {memory-per-face: 1.5 KiB, "
+      "time: 0}}}}"));
 }
 
 TEST(PipelineSchema, RefusesMistakes) {
@@ -88,6 +91,12 @@ TEST(PipelineSchema, RefusesMistakes) {
   EXPECT_FALSE(accepts("{version: 1, models: [a.obj], variants: {s: {trace: {seed: [1, x]}}}}"));
   EXPECT_FALSE(accepts("{version: 1, models: [a.obj], stages: {trace: {program: strake-trase}}}"));
   EXPECT_FALSE(accepts("{version: 1, models: [a.obj], stages: {tensor: {resources: {part: 4}}}}"));
+  for (const char* bad : {"memory: 4000", "memory: '4000'", "memory: 5s", "time: 90"}) {
+    EXPECT_FALSE(accepts(std::string("{version: 1, models: [a.obj], stages: {tensor: {resources: "
+                                     "{") +
+                         bad + "}}}}"))
+        << bad;
+  }
 }
 
 }  // namespace

@@ -44,6 +44,8 @@ const Fault kFaults[] = {
     {"VersionAsFraction", "version: 1.0\nmodels: [a.obj]\n", "1:10: ", "version 1.0 is not known"},
     {"VersionAsList", "version: [1]\nmodels: [a.obj]\n", "1:10: ", "a single value"},
     {"VersionMissing", "models: [a.obj]\n", "1:1: ", "'version: 1' is missing"},
+    {"LineBreakInStore", "version: 1\nstore: \"a\\nb\"\nmodels: [a.obj]\n",
+     "2:8: ", "control characters"},
     {"StoreIsAList", "version: 1\nstore: [x]\nmodels: [a.obj]\n", "2:8: ", "a single value"},
     // Models.
     {"NoModels", "version: 1\n", "1:1: ", "'models' is missing"},
@@ -177,6 +179,11 @@ const Fault kFaults[] = {
      "3:31: ", "unknown key 'mem'"},
     {"NoAmount", "version: 1\nmodels: [a.obj]\nstages: {import: {resources: {memory: lots}}}\n",
      "3:39: ", "write e.g. 2GB"},
+    {"AmountWithoutUnit",
+     "version: 1\nmodels: [a.obj]\nstages: {import: {resources: {memory: 4000}}}\n",
+     "3:39: ", "2GB, a number and a unit"},
+    {"TimeWithoutUnit", "version: 1\nmodels: [a.obj]\nstages: {import: {resources: {time: 90}}}\n",
+     "3:37: ", "10min, a number and a unit"},
     {"NoTime", "version: 1\nmodels: [a.obj]\nstages: {import: {resources: {time: 2GB}}}\n",
      "3:37: ", "write e.g. 10min"},
     {"FractionOfAThread",
@@ -303,6 +310,22 @@ TEST_F(GoodPipeline, MarksInTheFoldersNameAreNoPattern) {
   const Description description = read_description(folder_ / "old [1]*" / "pipeline.yaml");
   ASSERT_EQ(description.models.size(), 1u);
   EXPECT_EQ(description.models[0].file, folder_ / "old [1]*" / "a.obj");
+}
+
+/// Ninja and Slurm take them for the end of what they are told.
+TEST_F(GoodPipeline, LineBreaksInTheFoldersNameAreRefused) {
+  for (const std::string name : {"two\nlines", "a\ttab", "a\x7f"}) {
+    fs::create_directory(folder_ / name);
+    put(name + "/pipeline.yaml", "version: 1\nmodels: ['../a.obj']\n");
+    try {
+      read_description(folder_ / name / "pipeline.yaml");
+      ADD_FAILURE() << name;
+    } catch (const UsageError& error) {
+      const std::string said = error.what();
+      EXPECT_NE(said.find("control characters"), std::string::npos) << said;
+      EXPECT_EQ(said.find(name), std::string::npos) << said;
+    }
+  }
 }
 
 TEST_F(GoodPipeline, TheSpellingOfTheCommandLineIsAnsweredByThatOfFiles) {

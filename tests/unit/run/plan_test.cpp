@@ -270,5 +270,23 @@ TEST_F(PlanTest, LongNamesMakeFileNamesThatFit) {
   EXPECT_EQ(ids.size(), 9u);
 }
 
+TEST_F(PlanTest, FilesOfOtherModelsMayBeMissing) {
+  put("density.ply", "ply\n");
+  const Description description = describe(
+      "version: 1\nmodels: {a: a.obj, gone: gone.obj, lacks: {file: b.ply, inputs: {density: "
+      "gone.ply}}}\n");
+  const Plan plan = make_plan(description, {{"a"}, {}, {}});
+  EXPECT_FALSE(plan.steps.empty());
+  EXPECT_TRUE(plan.left_out.empty());
+  for (const std::string model : {"gone", "lacks"}) {
+    EXPECT_THROW(make_plan(description, {{model}, {}, {}}), UsageError);
+  }
+  EXPECT_THROW(make_plan(description, {}), UsageError);
+  const Plan all = make_plan(description, {{}, {}, {}, true});
+  EXPECT_EQ(all.steps.size(), plan.steps.size());
+  EXPECT_EQ(all.left_out.size(), 2u);
+  EXPECT_EQ(all.left_out.at("lacks"), folder_ / "gone.ply");
+}
+
 }  // namespace
 }  // namespace strake::run_test

@@ -6,25 +6,26 @@ namespace strake {
 namespace {
 
 TEST(Resources, AmountsOfMemory) {
-  EXPECT_EQ(parse_bytes("1500"), 1500);
+  EXPECT_EQ(parse_bytes("0"), 0);
   EXPECT_EQ(parse_bytes("300B"), 300);
   EXPECT_EQ(parse_bytes("1.5 GB"), 1.5e9);
   EXPECT_EQ(parse_bytes("2GiB"), 2147483648.0);
   EXPECT_EQ(parse_bytes("4G"), parse_bytes("4GiB")) << "as Slurm has it";
   EXPECT_EQ(parse_bytes("1e3kB"), 1e6);
   for (const char* bad : {"", "GB", "-1GB", "1gb", "1 G B", "1XB", "nan", "inf", "1e400", "1e12TB",
-                          "two", "5s", "1,5GB"}) {
+                          "4000", "two", "5s", "1,5GB"}) {
     EXPECT_EQ(parse_bytes(bad), std::nullopt) << bad;
   }
 }
 
 TEST(Resources, AmountsOfTime) {
-  EXPECT_EQ(parse_seconds("90"), 90);
+  EXPECT_EQ(parse_seconds("90s"), 90);
+  EXPECT_EQ(parse_seconds("0"), 0);
   EXPECT_EQ(parse_seconds("10min"), 600);
   EXPECT_EQ(parse_seconds("2 h"), 7200);
   EXPECT_EQ(parse_seconds("30d"), 30 * 86400);
   EXPECT_DOUBLE_EQ(parse_seconds("15us").value(), 15e-6);
-  for (const char* bad : {"", "min", "-1s", "1m", "2GB", "1e30d"}) {
+  for (const char* bad : {"", "min", "-1s", "1m", "2GB", "1e30d", "30", "0.5"}) {
     EXPECT_EQ(parse_seconds(bad), std::nullopt) << bad;
   }
 }
