@@ -191,7 +191,7 @@ void check_file(const std::string& path, std::int64_t max_sides,
 /// Checks all files, so that one that is damaged does not hide others, and then whether those that
 /// are sound belong together.
 int check_files(std::vector<std::string> paths, std::int64_t max_sides) {
-  std::ranges::stable_partition(paths, is_mesh_artifact);
+  std::stable_partition(paths.begin(), paths.end(), is_mesh_artifact);
   std::vector<std::string> sound;
   std::map<std::string, std::string> meshes;
   std::string complaints;

@@ -1,6 +1,7 @@
 #include "common/core/options.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -146,7 +147,13 @@ bool takes_length(const Option& option) {
 }
 
 std::string limit_text(const Option& option, double limit) {
-  if (takes_length(option)) return Length{limit, true}.to_string();
+  if (takes_length(option)) {
+    std::array<char, 32> text{};
+    constexpr int kDigits = 6;
+    const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), 100 * limit,
+                                            std::chars_format::general, kDigits);
+    return std::string(text.data(), end) + "%";
+  }
   constexpr double kMostDigits = 1e15;  // the shortest text of a hundred million is 1e+08
   const bool is_whole = std::floor(limit) == limit && std::abs(limit) < kMostDigits;
   return is_whole ? std::to_string(static_cast<std::int64_t>(limit)) : number_text(limit);

@@ -218,10 +218,11 @@ def _numbered(labels):
 def _colours(colours):
     """Colours as [V, 4] in [0, 1]."""
     numbers = _numbers("colours", colours)
-    if _array("colours", colours).dtype.kind in "iu":
-        if ((numbers < 0) | (numbers > 255)).any():
-            raise InputError("colours: integers are taken as 0 to 255, and some are outside")
+    kind = _array("colours", colours).dtype
+    if kind == _np.uint8:
         numbers = numbers / 255
+    elif kind.kind in "iu" and ((numbers < 0) | (numbers > 1)).any():
+        raise InputError("colours: integers beyond 0 and 1; 0 to 255 are taken of uint8 alone")
     if not _np.isfinite(numbers).all():
         raise InputError("colours: some are no finite numbers")
     if numbers.ndim == 2 and numbers.shape[1] == 3:

@@ -452,7 +452,7 @@ FAULTS = [
           "test_chain", "^PartFaces"),
     Fault("results say what the search for a count made of options",
           "strake/remesh.cpp",
-          "Provenance whole = asked;", "Provenance whole = const_cast<RemeshCommand*>(this)->without_inputs();",
+          "save_result(output, quads, input, asked);", "save_result(output, quads, input, without_inputs());",
           "test_pipeline", "^FrontEnd"),
     Fault("half a ring becomes one straight edge",
           "stages/mesh/simplify.cpp",
