@@ -305,7 +305,7 @@ std::string Reader::text_attribute(const std::string& name) const {
       H5Sget_simple_extent_npoints(space.id()) != 1) {
     refuse(name, "is not a text");
   }
-  // HDF5 1.10 takes any amount of memory for those where their heap is damaged.
+  // They lie in a heap of their own, and reading a damaged one ended the process in trials.
   if (H5Tis_variable_str(type.id()) != 0) {
     refuse(name,
            "is a text of variable length, as h5py makes of str; write it with a length of its "

@@ -70,9 +70,10 @@ void read_resources(const YamlView& view, Rule& rule) {
     if (field == fields.end()) return false;
     const std::string text = field->second.text("an amount");
     const std::optional<double> value = parse(text);
-    if (!value)
+    if (!value) {
       field->second.fail(
           fmt::format("'{}' is none; write e.g. {}, a number and a unit", text, example));
+    }
     target = *value;
     return true;
   };

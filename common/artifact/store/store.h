@@ -68,7 +68,8 @@ class Store {
   void check_format() const;
   /// \throw InputError where the folder is there, but holds no store: nothing may go from it
   void require_own() const;
-  /// Makes the folder, and the file that says that it is a store, where they are missing. \throw InputError where that fails
+  /// Makes the folder, and the file that says that it is a store, where they are missing.
+  /// \throw InputError where that fails
   void prepare() const;
 
   /// The entry, if it is there and whole.
