@@ -74,7 +74,7 @@ TEST_F(Errors, LengthsInModelUnitsThatAreOutOfRange) {
     must_fail(kUsage, "strake remesh torus.ply -o x.obj --tolerance " + length,
               "of the bounding-box diagonal, ");
     must_fail(kUsage, "strake remesh torus.ply -o x.obj --tolerance " + length,
-              "expected a length between 1e-04% and 20%");
+              "expected a length between 0.0001% and 20%");
   }
 }
 
