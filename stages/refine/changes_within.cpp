@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <set>
 #include <span>
 #include <utility>
@@ -162,10 +163,11 @@ void pair_odd_cells_within(ToleranceProof& proof, const SurfacePoints& points,
 
 void pair_odd_cells_as_near(const std::shared_ptr<const InputSurface>& input,
                             const SurfacePoints& points, QuadMesh& quads) {
-  ErrorMap errors = measure_cells(ComparedSurfaces(input, quads), kCompared);
+  std::optional<ErrorMap> errors;  // before changes; not measured where there are none
   const auto harm_of = [&](const Trial& trial) {
+    if (!errors) errors = measure_cells(ComparedSurfaces(input, trial.before), kCompared);
     ErrorMap after = measure_cells(ComparedSurfaces(input, trial.changed), kCompared);
-    const std::vector<char> harmful = changes_farther_off(errors, after, trial);
+    const std::vector<char> harmful = changes_farther_off(*errors, after, trial);
     if (std::ranges::find(harmful, 1) == harmful.end()) errors = std::move(after);
     return harmful;
   };
