@@ -31,6 +31,8 @@ constexpr int kMostRefills = 4;
 constexpr int kMostPairings = 80;
 /// Distance that is usual, in root mean squares.
 constexpr double kUsual = 2;
+/// Distance, of the diagonal, that rounding alone may make.
+constexpr double kRounding = 1e-9;
 /// How a result is measured that no tolerance holds for.
 constexpr CellSampling kCompared = {.rows = 3, .input_step = 0.4};
 
@@ -60,12 +62,13 @@ bool mark_crossing(const Trial& trial, std::vector<char>& harmful) {
 
 /// The changes that bring faces farther off than those were that they take the place of, and than
 /// is usual, or to cross others.
+/// \param rounding  distance that it may make, model units
 /// \return [changes] 1: one of them
 std::vector<char> changes_farther_off(const ErrorMap& before, const ErrorMap& after,
-                                      const Trial& trial) {
+                                      double rounding, const Trial& trial) {
   std::vector<char> harmful(trial.changes.size(), 0);
   mark_crossing(trial, harmful);
-  std::vector<double> allowed(trial.changes.size(), kUsual * before.rms);
+  std::vector<double> allowed(trial.changes.size(), std::max(kUsual * before.rms, rounding));
   for (std::size_t c = 0; c < allowed.size(); ++c) {
     for (const Index f : trial.changes[c].removed) {
       allowed[c] = std::max(allowed[c], before.cells[f].largest);
@@ -167,7 +170,8 @@ void pair_odd_cells_as_near(const std::shared_ptr<const InputSurface>& input,
   const auto harm_of = [&](const Trial& trial) {
     if (!errors) errors = measure_cells(ComparedSurfaces(input, trial.before), kCompared);
     ErrorMap after = measure_cells(ComparedSurfaces(input, trial.changed), kCompared);
-    const std::vector<char> harmful = changes_farther_off(*errors, after, trial);
+    const std::vector<char> harmful =
+        changes_farther_off(*errors, after, kRounding * input->mesh.diagonal, trial);
     if (std::ranges::find(harmful, 1) == harmful.end()) errors = std::move(after);
     return harmful;
   };

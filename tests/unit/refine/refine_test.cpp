@@ -93,6 +93,15 @@ TEST(Refine, PairsOddCellsWhereTheToleranceAllowsIt) {
   EXPECT_EQ(sides(refined(odd_pair(-0.03), within(0.06)).mesh).count(4), 16U);
 }
 
+TEST(Refine, PairsOddCellsForACountWhereTheyComeNoFartherOff) {
+  RefineOptions options;
+  options.vertices = 25;  // those that are there
+  EXPECT_EQ(sides(refined(odd_pair(0.03), options).mesh).count(4), 16U);
+  EXPECT_EQ(sides(refined(odd_pair(-0.03), options).mesh).count(4), 14U);
+  options.vertices.reset();
+  EXPECT_EQ(sides(refined(odd_pair(0.03), options).mesh).count(4), 14U);
+}
+
 TEST(Refine, CutsCellsThatOthersWouldCutBeyondTheTolerance) {
   const PolyMesh pentagon = support::undecided_pentagon();
   const Case c = support::on_triangles(pentagon, triangulate_faces(pentagon));
