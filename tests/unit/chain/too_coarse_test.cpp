@@ -13,20 +13,8 @@
 
 #include "common/geometry/poly_topology/poly_topology.h"
 #include "common/geometry/samples/samples.h"
-#include "stages/coarsen/stage.h"
-#include "stages/decimate/stage.h"
-#include "stages/fit/stage.h"
 #include "stages/import/stage.h"
-#include "stages/lift/stage.h"
-#include "stages/mesh/stage.h"
-#include "stages/prolong/stage.h"
-#include "stages/refine/stage.h"
-#include "stages/refine/uncross/stage.h"
-#include "stages/refine/worst/stage.h"
-#include "stages/size/stage.h"
-#include "stages/smooth/stage.h"
-#include "stages/tensor/stage.h"
-#include "stages/trace/stage.h"
+#include "strake/chain/chain.h"
 #include "strake/chain/remesh.h"
 #include "strake/chain/session.h"
 #include "tests/support/plates.h"
@@ -188,22 +176,6 @@ PolyMesh relief(int along, const std::function<double(double x, double y)>& heig
   return mesh;
 }
 
-GoalStages goal_stages() {
-  return {.coarsen = coarsen_stage(),
-          .tensor = tensor_stage(),
-          .smooth = smooth_stage(),
-          .trace = trace_stage(),
-          .mesh = mesh_stage(),
-          .lift = lift_stage(),
-          .prolong = prolong_stage(),
-          .fit = fit_stage(),
-          .size = size_stage(),
-          .refine = refine_stage(),
-          .uncross = refine_uncross_stage(),
-          .worst = refine_worst_stage(),
-          .decimate = decimate_stage()};
-}
-
 /// Whether closer lines are in vain where those of a flat grid are all there is of a surface.
 bool flat_grid_misses(const PolyMesh& surface, int along) {
   Listener listener;
@@ -215,7 +187,7 @@ bool flat_grid_misses(const PolyMesh& surface, int along) {
   grid.mesh = relief(along, [](double, double) { return 0.0; });
   grid.mesh_id = session.get<TriMesh>("mesh").id;
   session.provide("fitted", grid, "test", "");
-  const GoalStages stages = goal_stages();
+  const Chain stages;
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
   DecimatedRival rival(stages, Counted::vertices, grid.mesh.vertex_count());
   return rival.shows_what_lines_miss(session, crossing);
@@ -255,7 +227,7 @@ TEST(TooCoarse, TheRivalIsMadeOnceAndTakesThePlaceOfLines) {
   grid.mesh_id = session.get<TriMesh>("mesh").id;
   session.provide("quads", grid, "test", "");
   session.provide("fitted", grid, "test", "");
-  const GoalStages stages = goal_stages();
+  const Chain stages;
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
   const Index wanted = grid.mesh.vertex_count();
   DecimatedRival rival(stages, Counted::vertices, wanted);
@@ -314,7 +286,7 @@ TEST(TooCoarse, DecimatedFacesThatCrossArePartedByCountsNearby) {
   Session session(listener);
   session.provide("input", Polygons{two_reliefs(0.03), "", {}}, "input", "");
   session.run(import_stage());
-  const GoalStages stages = goal_stages();
+  const Chain stages;
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
   int parted = 0;
   for (const int count : {243, 303}) {
@@ -352,7 +324,7 @@ TEST(TooCoarse, TangledFacesWithinAToleranceGiveWayToTheSurface) {
     p.z() = waves(p.x(), p.y());
   }
   session.provide("refined", tangled, "test", "");
-  const GoalStages stages = goal_stages();
+  const Chain stages;
   stages.refine.option("refine-tolerance").parse_into("0.1%");
   CrossingPlaces crossing(mesh);
   const std::size_t faces = crossing.of(tangled.mesh).size();
