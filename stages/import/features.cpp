@@ -340,8 +340,8 @@ void find_facets(TriMesh& mesh, double height, FeatureCounts& counts) {
 }
 
 /// Makes borders of attributes features where the rules want them, and then those listed.
-void flag_attribute_borders(const FeatureRules& rules, const PolyMesh& input,
-                            const EdgeList* listed, TriMesh& mesh, FeatureCounts& counts) {
+void flag_borders_and_listed_edges(const FeatureRules& rules, const PolyMesh& input,
+                                   const EdgeList* listed, TriMesh& mesh, FeatureCounts& counts) {
   std::vector<Index> borders;
   std::vector<Index> seams;
   const MirrorLines mirrors(mesh);
@@ -377,7 +377,7 @@ FeatureCounts find_features(TriMesh& mesh, const FeatureRules& rules, const Poly
   if (rules.angle_deg < 180) find_creases(mesh, rules.angle_deg, rules.all_creases, counts);
   if (std::isfinite(rules.height)) find_ridges(mesh, rules.height, counts);
   if (std::isfinite(rules.facet_height)) find_facets(mesh, rules.facet_height, counts);
-  flag_attribute_borders(rules, input, listed, mesh, counts);
+  flag_borders_and_listed_edges(rules, input, listed, mesh, counts);
   counts.edges =
       static_cast<Index>(std::count(mesh.is_feature.begin(), mesh.is_feature.end(), 1) / 2);
   counts.corners = find_corners(mesh);

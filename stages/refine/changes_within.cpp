@@ -33,8 +33,6 @@ constexpr int kMostPairings = 80;
 constexpr double kUsual = 2;
 /// Distance, of the diagonal, that rounding alone may make.
 constexpr double kRounding = 1e-9;
-/// How a result is measured that no tolerance holds for.
-constexpr CellSampling kCompared = {.rows = 3, .input_step = 0.4};
 
 /// Changes of a result that are tried at once.
 struct Trial {

@@ -6,13 +6,14 @@
 
 #include "common/core/poly_mesh.h"
 #include "common/core/tri_mesh.h"
+#include "common/geometry/cell_error/cell_error.h"
 #include "common/geometry/cell_error/tolerance_check.h"
 #include "stages/refine/surface_points.h"
 
 namespace strake {
 
-// Changes of a result that is proven to be within a tolerance, and stays so. Vertices stay where
-// they are.
+// Changes of a result whose vertices stay where they are. What is proven to be within a tolerance
+// stays so.
 
 /// Makes faces that cross others anew (refill_crossing.h) where the tolerance allows it.
 void refill_within(ToleranceProof& proof, QuadMesh& quads);
@@ -24,8 +25,12 @@ void refill_within(ToleranceProof& proof, QuadMesh& quads);
 void pair_odd_cells_within(ToleranceProof& proof, const SurfacePoints& points,
                            const std::vector<char>& may_change, QuadMesh& quads);
 
-/// Likewise, where no tolerance holds: where they come no farther from the surface than those were
-/// that they take the place of, or than twice the root mean square.
+/// How a result is measured that no tolerance holds for: fewer samples than measuring it takes do
+/// to compare, and to find its worst places.
+inline constexpr CellSampling kCompared = {.rows = 3, .input_step = 0.4};
+
+/// As pair_odd_cells_within where no tolerance holds: quads come no farther from the surface than
+/// the faces were that they take the place of, or than twice the root mean square.
 void pair_odd_cells_as_near(const std::shared_ptr<const InputSurface>& input,
                             const SurfacePoints& points, QuadMesh& quads);
 

@@ -32,8 +32,6 @@ constexpr double kLeastTolerance = 1e-6;
 /// Shares of all faces by which there may be more that are no quads, or thin.
 constexpr double kMoreOdd = 0.005;
 constexpr double kMoreThin = 0.002;
-/// Fewer samples than measuring a result takes do to find its worst places and to compare.
-constexpr CellSampling kCompared = {.rows = 3, .input_step = 0.4};
 /// What grows further takes too many vertices.
 constexpr InlayLimits kSmallInlays = {.cells = 200, .rounds = 5};
 /// Corners that faces may come to have, or as many as one has already.
