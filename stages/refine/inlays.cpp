@@ -39,8 +39,6 @@ constexpr std::size_t kMostInVain = 40000;
 constexpr std::size_t kCutAtOnce = 16;
 /// Times that inlays grow, for faces that cross, without fewer faults than ever before.
 constexpr int kInlaysInVain = 4;
-/// Where more cells are bad, it is not for single places.
-constexpr std::size_t kMostBad = 3000;
 
 /// Where an inlay is to be.
 struct Site {
@@ -289,7 +287,7 @@ bool inlay_beyond(ToleranceProof& proof, const std::vector<Excess>& excess,
   for (const Target& target : cells_beyond(proof.input()->mesh, quads, excess, true)) {
     cells.push_back(target.face);
   }
-  if (cells.size() > kMostBad) return false;
+  if (cells.size() > limits.places) return false;
   const InlayHost host(proof, quads, crossing);
   Inlays growing(host, {false, limits});
   if (!growing.grow(cells)) return false;
@@ -302,7 +300,7 @@ bool inlay_beyond(ToleranceProof& proof, const std::vector<Excess>& excess,
 std::vector<char> inlay_crossing(ToleranceProof& proof, CrossingPlaces& crossing, double thinned_by,
                                  QuadMesh& quads, const InlayLimits& limits) {
   const std::vector<Index> cells = crossing.faces_of(quads.mesh);
-  if (cells.empty() || cells.size() > kMostBad) return {};
+  if (cells.empty() || cells.size() > limits.places) return {};
   const InlayHost host(proof, quads, crossing);
   Inlays growing(host, {true, limits});
   if (!growing.grow(cells)) growing.drop_bad_unless_fewer_cross(cells.size());

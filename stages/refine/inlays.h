@@ -19,6 +19,8 @@ namespace strake {
 struct InlayLimits {
   std::size_t cells;  ///< in place of which one may be, at most
   int rounds;         ///< times that they grow, at most
+  /// Bad cells up to which any are made: where there are more, it is not for single places.
+  std::size_t places = 3000;
 };
 inline constexpr InlayLimits kInlaysWithin = {4000, 16};
 inline constexpr InlayLimits kInlaysUncrossed = {1000, 16};

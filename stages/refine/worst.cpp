@@ -32,8 +32,9 @@ constexpr double kLeastTolerance = 1e-6;
 /// Shares of all faces by which there may be more that are no quads, or thin.
 constexpr double kMoreOdd = 0.005;
 constexpr double kMoreThin = 0.002;
-/// What grows further takes too many vertices.
-constexpr InlayLimits kSmallInlays = {.cells = 200, .rounds = 5};
+/// What grows further takes too many vertices; and where there are many faults, they have stayed
+/// for good reason.
+constexpr InlayLimits kSmallInlays = {.cells = 200, .rounds = 5, .places = 200};
 /// Corners that faces may come to have, or as many as one has already.
 constexpr std::int64_t kQuad = 4;
 
@@ -81,9 +82,15 @@ class NearerResults {
     observer.report("looking for the worst places", 0);
     errors_ = measure_cells(ComparedSurfaces(input_, quads), kCompared);
     first_ = quality_of(quads, errors_);
+    is_stacked_ = crossing_.is_stacked();
   }
 
   [[nodiscard]] const Quality& first() const { return first_; }
+  /// Whether it makes sense to look for any.
+  [[nodiscard]] bool may_be() const {
+    return !is_stacked_ && most_vertices_ > quads_.mesh.vertex_count() &&
+           first_.largest >= kEven * first_.rms;
+  }
 
   /// \param share  of the largest distance that is to be kept
   /// \return nothing where that takes too many vertices, or is no better
@@ -152,6 +159,7 @@ class NearerResults {
   CrossingPlaces crossing_;
   ErrorMap errors_;
   Quality first_;
+  bool is_stacked_ = false;  ///< sheets on top of each other, before anything was done
 };
 
 std::optional<Found> nearest(NearerResults& results) {
@@ -170,7 +178,7 @@ WorstResult bring_worst_nearer(const TriMesh& mesh, const QuadMesh& quads,
   NearerResults results(mesh, quads, most, observer);
   const Quality& first = results.first();
   std::optional<Found> found;
-  if (most > given && first.largest >= kEven * first.rms) found = nearest(results);
+  if (results.may_be()) found = nearest(results);
   if (found) end_changes(mesh, quads.mesh, "the result with nearer places", found->quads);
   WorstResult result{found ? std::move(found->quads) : quads, {}};
   result.report.set("refine.largest_before", first.largest);

@@ -16,13 +16,13 @@ namespace fs = std::filesystem;
 
 FolderLock::FolderLock(const fs::path& folder) {
   const fs::path file = folder / "lock";
-  std::error_code error;
-  fs::create_directories(folder, error);
-  descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  // Somebody may be removing the folder right now, though it has just been made.
-  if (descriptor_ < 0 && errno == ENOENT &&
-      (!error || error == std::errc::no_such_file_or_directory)) {
-    return;
+  // Somebody may remove the folder at any moment, even between these two steps, but not every time.
+  constexpr int kAttempts = 100;
+  for (int attempt = 0; attempt < kAttempts && descriptor_ < 0; ++attempt) {
+    std::error_code ignored;  // told by what follows
+    fs::create_directories(folder, ignored);
+    descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (descriptor_ < 0 && errno != ENOENT) break;
   }
   if (descriptor_ < 0) {
     throw InputError("store: cannot write '" + folder.string() + "': " + std::strerror(errno) +

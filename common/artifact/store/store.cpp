@@ -257,6 +257,9 @@ bool Store::remove(const fs::path& folder) const {
   // Out of sight in one step, so that nobody sees half an entry.
   const fs::path grave = trash / fmt::format("{}-{}-{}", folder.parent_path().string(),
                                              folder.filename().string(), ::getpid());
+  // One of that name may be left: of a process that had the same number, or as somebody made a lock
+  // in it while it went away.
+  fs::remove_all(grave, error);
   fs::rename(root_ / folder, grave, error);
   if (error) {
     throw InputError("store: cannot remove '" + folder.string() + "': " + error.message());
