@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "common/geometry/cell_error/cell_error.h"
 #include "common/geometry/nearest_on_surface.h"
 #include "common/geometry/poly_topology/vertex_faces.h"
 
@@ -65,8 +64,7 @@ std::vector<Target> large_enough(const ComparedSurfaces& surfaces, const PolyMes
   return targets;
 }
 
-std::vector<Target> cells_by_distance(const ComparedSurfaces& surfaces) {
-  const ErrorMap errors = measure_cells(surfaces);
+std::vector<Target> cells_by_distance(const ErrorMap& errors) {
   std::vector<Target> targets;
   for (std::size_t f = 0; f < errors.cells.size(); ++f) {
     targets.push_back({static_cast<Index>(f), errors.cells[f].largest});

@@ -4,6 +4,7 @@
 
 #include "common/core/poly_mesh.h"
 #include "common/core/tri_mesh.h"
+#include "common/geometry/cell_error/cell_error.h"
 #include "common/geometry/cell_error/tolerance_check.h"
 
 namespace strake {
@@ -31,6 +32,6 @@ std::vector<Target> large_enough(const ComparedSurfaces& surfaces, const PolyMes
                                  std::vector<Target> targets);
 
 /// All cells of a result, those that are farthest off first.
-std::vector<Target> cells_by_distance(const ComparedSurfaces& surfaces);
+std::vector<Target> cells_by_distance(const ErrorMap& errors);
 
 }  // namespace strake

@@ -164,10 +164,11 @@ void pair_odd_cells_within(ToleranceProof& proof, const SurfacePoints& points,
 
 void pair_odd_cells_as_near(const std::shared_ptr<const InputSurface>& input,
                             const SurfacePoints& points, QuadMesh& quads) {
+  CellMeasure measure(kCompared);
   std::optional<ErrorMap> errors;  // before changes; not measured where there are none
   const auto harm_of = [&](const Trial& trial) {
-    if (!errors) errors = measure_cells(ComparedSurfaces(input, trial.before), kCompared);
-    ErrorMap after = measure_cells(ComparedSurfaces(input, trial.changed), kCompared);
+    if (!errors) errors = measure.measure(ComparedSurfaces(input, trial.before));
+    ErrorMap after = measure.measure(ComparedSurfaces(input, trial.changed));
     const std::vector<char> harmful =
         changes_farther_off(*errors, after, kRounding * input->mesh.diagonal, trial);
     if (std::ranges::find(harmful, 1) == harmful.end()) errors = std::move(after);

@@ -80,7 +80,7 @@ class NearerResults {
         input_(std::make_shared<const InputSurface>(mesh)),
         crossing_(mesh) {
     observer.report("looking for the worst places", 0);
-    errors_ = measure_cells(ComparedSurfaces(input_, quads), kCompared);
+    errors_ = measure_.measure(ComparedSurfaces(input_, quads));
     first_ = quality_of(quads, errors_);
     is_stacked_ = crossing_.is_stacked();
   }
@@ -147,7 +147,7 @@ class NearerResults {
     if (are_too_many()) return std::nullopt;
     Found found{refinement.quads(), {}};
     found.quality =
-        quality_of(found.quads, measure_cells(ComparedSurfaces(input_, found.quads), kCompared));
+        quality_of(found.quads, measure_.measure(ComparedSurfaces(input_, found.quads)));
     return found;
   }
 
@@ -157,6 +157,7 @@ class NearerResults {
   Observer& observer_;
   std::shared_ptr<const InputSurface> input_;
   CrossingPlaces crossing_;
+  CellMeasure measure_{kCompared};
   ErrorMap errors_;
   Quality first_;
   bool is_stacked_ = false;  ///< sheets on top of each other, before anything was done

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "common/geometry/cell_error/compared_surfaces.h"
@@ -36,6 +37,26 @@ struct CellSampling {
 /// cells, and all vertices of both. Deterministic for any thread count.
 /// Cost O(samples log faces), parallel.
 ErrorMap measure_cells(const ComparedSurfaces& surfaces, const CellSampling& sampling = {});
+
+/// `measure_cells` for one result after another of the same input: what faces and samples have that
+/// are as they were in the one before is not measured again.
+class CellMeasure {
+ public:
+  explicit CellMeasure(const CellSampling& sampling = {});
+  CellMeasure(const CellMeasure&) = delete;
+  CellMeasure& operator=(const CellMeasure&) = delete;
+  ~CellMeasure();
+
+  /// \return as `measure_cells`, with the samples of the input that the first result had.
+  /// \pre `surfaces` compares with the same input each time
+  ErrorMap measure(const ComparedSurfaces& surfaces);
+
+ private:
+  struct Known;
+
+  CellSampling sampling_;
+  std::unique_ptr<Known> known_;
+};
 
 /// The member `bend` of one face's CellError alone.
 Mat3 cell_bend(const ComparedSurfaces& surfaces, Index face);
