@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,6 +15,12 @@ namespace strake {
 
 // Changes of a result whose vertices stay where they are. What is proven to be within a tolerance
 // stays so.
+
+/// Pieces that proofs may take of a result that may as well stay as it is (ToleranceProof::limit):
+/// several times what any took but of needles that overlap, and a few seconds.
+inline std::int64_t most_pieces(const QuadMesh& quads) {
+  return 1'000'000 + 30 * std::int64_t{quads.mesh.face_count()};
+}
 
 /// Makes faces that cross others anew (refill_crossing.h) where the tolerance allows it.
 void refill_within(ToleranceProof& proof, QuadMesh& quads);

@@ -26,6 +26,7 @@ constexpr double kThinnedBy = 2;
 constexpr double kLeastTolerance = 1e-6;
 
 /// The result with inlays; as it is where there are none.
+/// \throw ProofTooLong
 QuadMesh with_inlays(const TriMesh& mesh, const QuadMesh& quads, CrossingPlaces& crossing,
                      Observer& observer) {
   const auto input = std::make_shared<const InputSurface>(mesh);
@@ -35,6 +36,7 @@ QuadMesh with_inlays(const TriMesh& mesh, const QuadMesh& quads, CrossingPlaces&
   ToleranceProof proof(input, std::max(errors.largest, least));
   proof.report_to(observer, kPhase);
   proof.assume(surfaces);
+  proof.limit(most_pieces(quads));
   QuadMesh inlaid = quads;
   inlaid.mesh.attributes = {};  // carried over anew at the end
   const double thinned_by = std::min(proof.tolerance(), std::max(kThinnedBy * errors.rms, least));
@@ -53,9 +55,12 @@ UncrossResult uncross_faces(const TriMesh& mesh, const QuadMesh& quads, Observer
   std::size_t after = before;
   if (before > 0) {
     observer.report(kPhase, 0);
-    QuadMesh inlaid = with_inlays(mesh, quads, crossing, observer);
-    after = crossing.faces_of(inlaid.mesh).size();
-    if (after < before) result.quads = std::move(inlaid);
+    try {
+      QuadMesh inlaid = with_inlays(mesh, quads, crossing, observer);
+      after = crossing.faces_of(inlaid.mesh).size();
+      if (after < before) result.quads = std::move(inlaid);
+    } catch (const ProofTooLong&) {  // the result stays as it is
+    }
   }
   if (after < before) {
     end_changes(mesh, quads.mesh, "the result with faces of the input", result.quads);

@@ -93,16 +93,19 @@ class NearerResults {
   }
 
   /// \param share  of the largest distance that is to be kept
-  /// \return nothing where that takes too many vertices, or is no better
+  /// \return nothing where that takes too many vertices or too long, or is no better
   std::optional<Found> within(double share) {
     const double tolerance = share * first_.largest;
     const std::int64_t room = most_vertices_ - quads_.mesh.vertex_count();
     if (tolerance < kLeastTolerance * mesh_.diagonal || count_beyond(errors_, tolerance) > room) {
       return std::nullopt;
     }
-    std::optional<Found> found = refined(tolerance, false);
-    if (found && has_more_faults(found->quality, first_)) found = refined(tolerance, true);
-    if (found && is_better(found->quality, first_)) return found;
+    try {
+      std::optional<Found> found = refined(tolerance, false);
+      if (found && has_more_faults(found->quality, first_)) found = refined(tolerance, true);
+      if (found && is_better(found->quality, first_)) return found;
+    } catch (const ProofTooLong&) {  // the result stays as it is
+    }
     return std::nullopt;
   }
 
@@ -132,6 +135,7 @@ class NearerResults {
     }
     ToleranceProof proof(input_, tolerance);
     proof.assume(surfaces, is_beyond);
+    proof.limit(most_pieces(quads_));
     Refinement refinement(mesh_, quads_, kQuad);
     refinement.put_back(input_->distance, tolerance);
     const Divided divided = divide_until_within(

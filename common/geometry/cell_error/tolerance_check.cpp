@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <functional>
 #include <limits>
@@ -28,6 +29,8 @@ constexpr double kCutExactly = 0.5;
 constexpr double kLeastStep = 1e-12;  // of the way, whatever the tolerance
 /// Cuts in a row, from a triangle on, that may be made there.
 constexpr int kMostCuts = 16;
+/// Pieces of one triangle that any proof may look at; most need but one.
+constexpr std::int64_t kFreePieces = 64;
 /// Corners in a row of which each is looked for near the foot of the one before.
 constexpr std::size_t kCornersInARow = 64;
 
@@ -55,8 +58,10 @@ std::vector<char> flat_triangles(const SurfaceDistance& surface) {
 class PieceCheck {
  public:
   /// \param other_flat  as `flat_triangles` gives: nothing is near to these
-  PieceCheck(const SurfaceDistance& other, const std::vector<char>& other_flat, double tolerance)
-      : other_(other), tolerance_(tolerance) {
+  /// \param left        pieces that may be looked at, beside the free ones; kept by reference
+  PieceCheck(const SurfaceDistance& other, const std::vector<char>& other_flat, double tolerance,
+             std::atomic<std::int64_t>& left)
+      : other_(other), tolerance_(tolerance), left_(left) {
     if (!other_flat.empty()) {
       has_area_ = [&other_flat](Index t) { return other_flat[t] == 0; };
     }
@@ -73,10 +78,13 @@ class PieceCheck {
   /// Calls found(corner, distance) for places of the piece that are too far, or not proven not to
   /// be, and near(triangle) for triangles of the other surface that all else is near to, some of
   /// them several times.
+  /// \param pieces  of the triangle that were looked at, counted on
   /// \param cuts  that may still be made elsewhere than in the middle of the longest edge, which
   ///              alone ends for certain
   template <class Found, class Near>
-  void check(const Piece& piece, const Found& found, const Near& near, int cuts = kMostCuts) const {
+  void check(const Piece& piece, const Found& found, const Near& near, std::int64_t& pieces,
+             int cuts = kMostCuts) const {
+    if (++pieces > kFreePieces && left_.fetch_sub(1) <= 0) throw ProofTooLong();
     const auto worst = std::max_element(
         piece.begin(), piece.end(),
         [](const Corner& a, const Corner& b) { return a.foot.distance < b.foot.distance; });
@@ -110,8 +118,8 @@ class PieceCheck {
     const Corner& c = piece[(cut + 2) % 3];
     const double share = uncovered == kNone ? 0.5 : where_to_cut(a, b);
     const Corner between = corner(a.place + share * (b.place - a.place), a.foot.triangle);
-    check({a, between, c}, found, near, cuts - 1);
-    check({between, b, c}, found, near, cuts - 1);
+    check({a, between, c}, found, near, pieces, cuts - 1);
+    check({between, b, c}, found, near, pieces, cuts - 1);
   }
 
  private:
@@ -199,6 +207,7 @@ class PieceCheck {
 
   const SurfaceDistance& other_;
   double tolerance_;
+  std::atomic<std::int64_t>& left_;
   std::function<bool(Index)> has_area_;  ///< of the other surface; empty: all have one
 };
 
@@ -231,8 +240,9 @@ struct Verdicts {
 };
 
 /// \param is_proven  [triangles] 1: need not be looked at
+/// \param left       see PieceCheck
 Verdicts check_surface(const SurfaceDistance& own, const SurfaceDistance& other, double tolerance,
-                       const std::vector<char>& is_proven) {
+                       const std::vector<char>& is_proven, std::atomic<std::int64_t>& left) {
   Verdicts found;
   const std::vector<char> is_flat = flat_triangles(own);
   const std::vector<char> other_flat = flat_triangles(other);
@@ -248,7 +258,7 @@ Verdicts check_surface(const SurfaceDistance& own, const SurfaceDistance& other,
     corner_of[v] = static_cast<Index>(vertices.size());
     vertices.push_back(static_cast<Index>(v));
   }
-  const PieceCheck check(other, other_flat, tolerance);
+  const PieceCheck check(other, other_flat, tolerance, left);
   std::vector<Corner> corners(vertices.size());
   const tbb::blocked_range<std::size_t> all(0, corners.size(), kCornersInARow);
   tbb::parallel_for(all, [&](const auto& row) {
@@ -268,8 +278,10 @@ Verdicts check_surface(const SurfaceDistance& own, const SurfaceDistance& other,
       verdict.place = at.place;
       verdict.on_other = at.foot.triangle;
     };
-    check.check({corners[corner_of[a]], corners[corner_of[b]], corners[corner_of[c]]}, note_found,
-                [&](Index triangle) { verdict.note_near(triangle); });
+    std::int64_t pieces = 0;
+    check.check(
+        {corners[corner_of[a]], corners[corner_of[b]], corners[corner_of[c]]}, note_found,
+        [&](Index triangle) { verdict.note_near(triangle); }, pieces);
     verdict.end_notes();
   });
   return found;
@@ -395,8 +407,10 @@ std::vector<Excess> ToleranceProof::check(const SurfaceDistance& result,
   if (observer_ != nullptr) observer_->report(phase_, 0);
   carry_over(result);
   const std::vector<char> is_near = take_what_is_assumed();
-  const Verdicts of_result = check_surface(result, input_->distance, tolerance_, is_proven_);
-  Verdicts of_input = check_surface(input_->distance, result, tolerance_, is_near);
+  std::atomic<std::int64_t> left = pieces_left_;
+  const Verdicts of_result = check_surface(result, input_->distance, tolerance_, is_proven_, left);
+  Verdicts of_input = check_surface(input_->distance, result, tolerance_, is_near, left);
+  pieces_left_ = left;
   for (std::size_t i = 0; i < of_result.verdict.size(); ++i) {
     if (of_result.verdict[i].on_other == kNone) is_proven_[of_result.triangle[i]] = 1;
   }

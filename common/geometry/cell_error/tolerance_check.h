@@ -2,8 +2,10 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -35,6 +37,11 @@ struct Excess {
 /// tolerance.
 std::vector<Excess> check_tolerance(const ComparedSurfaces& surfaces, double tolerance);
 
+/// A proof would take more work than it may.
+struct ProofTooLong : std::runtime_error {
+  ProofTooLong() : std::runtime_error("the proof of a tolerance takes too long") {}
+};
+
 /// `check_tolerance` for one result after another of the same input: triangles of a result that
 /// were in the one before, and those of the input that such triangles are near to, need not be
 /// proven again.
@@ -49,6 +56,11 @@ class ToleranceProof {
   /// Reports a phase before each check from now on, so that what takes many can be cancelled.
   /// \param observer  kept by reference
   void report_to(Observer& observer, std::string phase);
+
+  /// From now on at most so many pieces of triangles are looked at in all, beside the first few of
+  /// each triangle: needles across others would take millions.
+  /// \post where that does not do, checks throw ProofTooLong, whatever the number of threads
+  void limit(std::int64_t pieces) { pieces_left_ = pieces; }
 
   /// Takes a result as it is for proven, and what is nearest to the vertices of each face of the
   /// input for near to all of it: from now on only what results have that is not of this one is
@@ -80,6 +92,7 @@ class ToleranceProof {
 
   std::shared_ptr<const InputSurface> input_;
   double tolerance_;
+  std::int64_t pieces_left_ = std::numeric_limits<std::int64_t>::max();
   Observer* observer_ = nullptr;
   std::string phase_;
   std::unordered_map<Triangle, Index, Hash> number_;  ///< of the last result's triangles

@@ -51,6 +51,35 @@ TEST(ToleranceCheck, FindsTheDistanceOfParallelPlanes) {
   for (const Excess& e : excess) EXPECT_NEAR(e.distance, 0.01, 1e-12);
 }
 
+/// Planes hardly nearer than the tolerance take many pieces. With a limit a proof takes no more,
+/// and says so; that it does not depends on the sum alone.
+TEST(ToleranceProof, KeepsToALimit) {
+  Case c = grid(8, 2, [](double, double) { return 0.0; });
+  for (Vec3& p : c.quads.mesh.positions) p.z() += 0.01;
+  const ComparedSurfaces surfaces(c.mesh, c.quads);
+  const auto fits = [&](std::int64_t limit) {
+    ToleranceProof proof(surfaces.shared_input(), 0.0102);
+    proof.limit(limit);
+    try {
+      return proof.check(surfaces).empty();
+    } catch (const ProofTooLong&) {
+      return false;
+    }
+  };
+  std::int64_t too_few = 0;
+  std::int64_t least = 1;
+  while (!fits(least)) least *= 2;
+  while (least - too_few > 1) {
+    const std::int64_t middle = (too_few + least) / 2;
+    (fits(middle) ? least : too_few) = middle;
+  }
+  EXPECT_GT(least, 100);
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_TRUE(fits(least));
+    EXPECT_FALSE(fits(least - 1));
+  }
+}
+
 /// One vertex of the input sticks out by h, in the middle of a face of the result. Samples on a
 /// grid of any width but one can miss it; the check cannot.
 TEST(ToleranceCheck, FindsASpikeOfTheInput) {
