@@ -207,8 +207,8 @@ int check_files(std::vector<std::string> paths, std::int64_t max_sides) {
       complaints += (complaints.empty() ? "" : "\n") + std::string(error.what());
     }
   }
-  for (const std::string& broken : broken_relations(sound)) {
-    complaints += (complaints.empty() ? "" : "\n") + broken;
+  for (const BrokenRelation& broken : broken_relations(sound)) {
+    complaints += (complaints.empty() ? "" : "\n") + broken.text;
   }
   if (!complaints.empty()) throw Error(code, complaints);
   return 0;

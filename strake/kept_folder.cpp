@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -10,6 +13,7 @@
 #include "common/artifact/artifact.h"
 #include "common/artifact/text_file.h"
 #include "common/core/error.h"
+#include "strake/relations.h"
 
 namespace strake {
 namespace fs = std::filesystem;
@@ -62,9 +66,51 @@ Session::Keeper KeptFolder::keeper() const {
     write_text(folder_ / (kept.stage.name + ".json"), record_json(kept.record));
     if (kept.output == nullptr) return std::string();
     const fs::path path = folder_ / (kept.stage.output.name + ".hdf");
-    save_value(path, *kept.output, &kept.mesh, kept.record.provenance);
+    save_value(path, *kept.output, kept.mesh, kept.record.provenance);
     return content_digest(path);
   };
+}
+
+void KeptFolder::end(const std::string& port) const {
+  std::vector<std::string> kept;
+  std::map<std::string, std::string> made;  // paths by content
+  for (const Stage* stage : stages_) {
+    const fs::path path = folder_ / (stage->output.name + ".hdf");
+    std::error_code ignored;
+    if (stage->output.kind == PortKind::report || !fs::exists(path, ignored)) continue;
+    if (std::ranges::find(kept, path.string()) != kept.end()) continue;
+    kept.push_back(path.string());
+    made.emplace(content_digest(path), path.string());
+  }
+  std::set<std::string> led_to_it;
+  std::vector<std::string> queue = {(folder_ / (port + ".hdf")).string()};
+  while (!queue.empty()) {
+    const std::string path = std::move(queue.back());
+    queue.pop_back();
+    if (std::ranges::find(kept, path) == kept.end() || !led_to_it.insert(path).second) continue;
+    for (const auto& input : read_artifact_info(path).provenance.inputs) {
+      if (const auto found = made.find(input.digest); found != made.end()) {
+        queue.push_back(found->second);
+      }
+    }
+  }
+  const auto remove_one = [&] {
+    for (const BrokenRelation& broken : broken_relations(kept)) {
+      for (const std::string& path : {broken.file, broken.other}) {
+        if (led_to_it.contains(path)) continue;
+        std::erase(kept, path);
+        fs::remove(path);
+        for (const Stage* stage : stages_) {
+          if (stage->output.name != fs::path(path).stem()) continue;
+          fs::remove(folder_ / (stage->name + ".json"));
+        }
+        return true;
+      }
+    }
+    return false;
+  };
+  while (remove_one()) {
+  }
 }
 
 }  // namespace strake

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "common/stage/program.h"
@@ -25,6 +26,11 @@ class KeptFolder {
   /// goes altogether then: another one may have other stages.
   /// \throw InputError where it cannot be made
   [[nodiscard]] Session::Keeper keeper() const;
+
+  /// Removes what was kept of attempts that came to nothing and contradicts the other files: no
+  /// artifact is left beside another one than it was made from.
+  /// \param port  of the result; what led to it stays
+  void end(const std::string& port) const;
 
  private:
   [[nodiscard]] std::filesystem::path times() const { return folder_ / "times.json"; }

@@ -69,27 +69,29 @@ const GivenFile* other_input(const GivenFile& file, const Provenance::InputRecor
 
 }  // namespace
 
-std::vector<std::string> broken_relations(const std::vector<std::string>& files) {
+std::vector<BrokenRelation> broken_relations(const std::vector<std::string>& files) {
   std::vector<GivenFile> all;
   all.reserve(files.size());
   for (const std::string& path : files) all.push_back(given_file(path));
-  std::vector<std::string> broken;
+  std::vector<BrokenRelation> broken;
   for (const GivenFile& file : all) {
     if (!file.info) continue;
     const std::string& maker = file.info->provenance.stage;
     const std::string again =
         std::string("run strake") + (maker == "remesh" ? " " : "-") + maker + " again";
     if (const GivenFile* mesh = strange_mesh(file, all)) {
-      broken.push_back(fmt::format(
-          "{}: foreign: it belongs to another mesh than '{}'; {} on files of this one, or take "
-          "the mesh it was made with",
-          file.path, mesh->path, again));
+      broken.push_back(
+          {file.path, mesh->path,
+           fmt::format("{}: foreign: it belongs to another mesh than '{}'; {} on files of this "
+                       "one, or take the mesh it was made with",
+                       file.path, mesh->path, again)});
       continue;
     }
     for (const Provenance::InputRecord& input : file.info->provenance.inputs) {
       if (const GivenFile* other = other_input(file, input, all)) {
-        broken.push_back(fmt::format("{}: stale: made from another '{}' than '{}' is now; {}",
-                                     file.path, input.role, other->path, again));
+        broken.push_back({file.path, other->path,
+                          fmt::format("{}: stale: made from another '{}' than '{}' is now; {}",
+                                      file.path, input.role, other->path, again)});
       }
     }
   }

@@ -172,6 +172,7 @@ void RemeshCommand::make_output() {
         [](const Value& value, const TriMesh* mesh) { return content_of(value, mesh); });
   }
   const std::string port = chain.run(session);
+  if (!keep.empty()) KeptFolder(keep, chain.stages()).end(port);
   const Report* measures = no_evaluate ? nullptr : &chain.measure(session, port);
   const QuadMesh& quads = session.get<QuadMesh>(port);
   save_result(output, quads, input, asked);

@@ -6,6 +6,7 @@
 
 #include "common/artifact/meshfile/mesh_writer.h"
 #include "common/core/text.h"
+#include "common/core/wanted_count.h"
 #include "common/geometry/samples/samples.h"
 #include "strake/commands.h"
 
@@ -22,6 +23,11 @@ int make(const SampleCommand& command) {
   check_output_path(PortKind::polygons, command.output);
   const PolyMesh mesh = make_sample(sample_kind(command.kind), command.options);
   write_mesh(command.output, mesh);
+  const std::int64_t faces = mesh.face_count();
+  if (count_miss(command.options.faces, faces) > kCountTolerance) {
+    fmt::print(stderr, "warning: {} faces were wanted, but the design takes {}\n",
+               command.options.faces, faces);
+  }
   fmt::print("{}: {} vertices, {} faces\n", command.output, mesh.vertex_count(), mesh.face_count());
   return 0;
 }

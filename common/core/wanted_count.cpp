@@ -13,7 +13,8 @@ double count_miss(std::int64_t wanted, std::int64_t reached) {
 std::string missed_count(const ReachedCount& count, const std::string& what,
                          const std::string& why) {
   if (count_miss(count.wanted, count.reached) <= kCountTolerance) return "";
-  const bool is_by_corners = count.counted == Counted::vertices && count.corners > count.wanted;
+  const bool is_by_corners = count.counted == Counted::vertices && count.corners > count.wanted &&
+                             count.reached > count.wanted;
   return std::to_string(count.wanted) + " " + name_of(count.counted) + " were wanted, but " + what +
          " " + std::to_string(count.reached) + ": " +
          (is_by_corners ? "feature and boundary lines have " + std::to_string(count.corners) +

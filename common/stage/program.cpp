@@ -33,7 +33,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kLogJson = "--log-json";
 constexpr const char* kOutOfMemory =
-    "out of memory; use a smaller mesh or a machine with more memory";
+    "out of memory; ask for fewer or larger cells, or use a smaller mesh or a machine with more "
+    "memory";
 
 bool is_flag(const Option& option) { return std::holds_alternative<bool*>(option.target); }
 
@@ -118,8 +119,8 @@ void make_output(const Stage& stage, const Paths& paths, const ShellOptions& she
   for (const std::string& warning : record.report.warnings()) console.say("warning: " + warning);
   if (result.output) {
     console.report("writing " + paths.output, 1);
-    const TriMesh* mesh = inputs.find<TriMesh>("mesh");
-    save_value(paths.output, *result.output, mesh, result.provenance.value_or(record.provenance));
+    save_value(paths.output, *result.output, inputs.mesh_of(*result.output),
+               result.provenance.value_or(record.provenance));
   } else if (!paths.output.empty()) {
     write_text(paths.output, record_json(record));
   }
@@ -171,6 +172,22 @@ std::string command_meant(const CLI::App& app, const std::string& word,
   const std::string near = nearest_word(word, programs_beside(app.get_name()));
   if (near.empty()) return "";
   return fmt::format("; did you mean the program '{}-{}'?", app.get_name(), near);
+}
+
+/// \throw UsageError where a file or folder is named "", as by a variable of a shell that is not set
+void require_names(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string type = option->get_type_name();
+    const std::vector<std::string>& given = option->results();
+    if (!type.starts_with("FILE") && !type.starts_with("FOLDER")) continue;
+    if (std::ranges::find(given, "") == given.end()) continue;
+    throw UsageError(fmt::format("{} names no {}; give its name, or leave {} out",
+                                 option->get_name(), type.starts_with("FILE") ? "file" : "folder",
+                                 option->get_name()));
+  }
+  for (const CLI::App* group : command.get_subcommands({})) {
+    if (group->get_name().empty() || group->parsed()) require_names(*group);
+  }
 }
 
 bool is_number(const std::string& word) {
@@ -372,6 +389,7 @@ std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv) {
   }
   try {
     app.parse(argc, argv);
+    require_names(app);
     return std::nullopt;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // help or version

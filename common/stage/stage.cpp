@@ -21,6 +21,17 @@ double diagonal_of(const Stage& stage, const Inputs& inputs, const Port* mesh_po
 
 }  // namespace
 
+const TriMesh* Inputs::mesh_of(const Value& value) const {
+  const std::string id = mesh_id_of(value);
+  for (const auto& [port, inputs] : values_) {
+    for (const Input& input : inputs) {
+      const auto* mesh = input.value ? std::get_if<TriMesh>(input.value.get()) : nullptr;
+      if (mesh != nullptr && mesh->id == id) return mesh;
+    }
+  }
+  return nullptr;
+}
+
 const Option& Stage::option(const std::string& option_name) const {
   for (const Option& option : options) {
     if (option.name == option_name) return option;

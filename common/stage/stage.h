@@ -53,6 +53,8 @@ class Inputs {
   [[nodiscard]] const T& get(const std::string& port) const {
     return std::get<T>(*at(port).value);
   }
+  /// The mesh that a value belongs to, by its id; nullptr where no port was given it.
+  [[nodiscard]] const TriMesh* mesh_of(const Value& value) const;
   /// The first, for good: moved out where nobody else holds it, so that its memory can be used for
   /// other things, else copied.
   /// \pre has(port), and the port is not asked again

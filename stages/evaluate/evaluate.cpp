@@ -59,7 +59,8 @@ void require_within(const Length& tolerance, const evaluation::Farthest& farthes
   const Vec3 place = farthest.place + reference.origin;
   throw ToleranceError(
       fmt::format("measured afterwards, the result and the surface are {:.6g} apart at {}, more "
-                  "than the {:.6g} allowed",
+                  "than the {:.6g} allowed; a larger --evaluate-tolerance allows more, and "
+                  "--tolerance makes a result that is within one",
                   farthest.distance, place_text(place, reference.diagonal), wanted),
       {farthest.place});
 }

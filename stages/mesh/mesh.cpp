@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -42,7 +43,8 @@ constexpr double kLeastVolume = 0.05;
 enum class Triangles : std::uint8_t {
   merged,  ///< to cells between lines
   kept,    ///< as cells, which are simplified and joined to quads
-  held,    ///< as simplified: joining them ended with two faces back to back. Not for pure quads
+  held,  ///< as simplified: joining them ended with two faces back to back. For pure quads each is
+         ///< divided
 };
 
 /// The wanted edge length where a node lies: the smaller of the two line distances.
@@ -85,10 +87,10 @@ double least_cone_volume(const Vec3& apex, const Polygon& p, double sign) {
   return least;
 }
 
-/// Takes the next step, up to `last`, for components that have too few cells to be a surface.
+/// Takes the next step for components that have too few cells to be a surface.
 /// \return whether there were any
 bool find_starved(const TriMesh& mesh, const std::vector<Index>& component,
-                  const PolygonGraph& graph, Triangles last, std::vector<Triangles>& triangles) {
+                  const PolygonGraph& graph, std::vector<Triangles>& triangles) {
   const DartGraph& g = graph.graph();
   std::vector<Vec3> apex(triangles.size());  // near the component, for tiny ones far away
   std::vector<double> volume(triangles.size(), 0);
@@ -117,7 +119,7 @@ bool find_starved(const TriMesh& mesh, const std::vector<Index>& component,
     const bool is_empty =
         open[c] == 0 && cells[c] <= kFewCells && enclosed[c] < kLeastVolume * std::abs(volume[c]);
     const bool is_starved = cells[c] < (open[c] != 0 ? 1 : kFewestCells) || is_empty;
-    if (triangles[c] == last || !is_starved) continue;
+    if (triangles[c] == Triangles::held || !is_starved) continue;
     triangles[c] = triangles[c] == Triangles::merged ? Triangles::kept : Triangles::held;
     found = true;
   }
@@ -257,11 +259,16 @@ Cells divide_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions&
 }
 
 /// Makes quads of odd faces, vertices of valence four, and as many as are wanted.
+/// \param is_held  whether a cell, by a dart of it, is a triangle that stays as it is
 void regularise_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions& options,
-                      const EdgeHeights& heights, Cells& cells) {
+                      const EdgeHeights& heights, const std::function<bool(Index)>& is_held,
+                      Cells& cells) {
   const auto wanted = [&](Index dart) { return wanted_length(mesh, lines, cells.graph, dart); };
   cells.paired = pair_odd_faces(cells.graph, wanted, options.odd_price, &heights);
-  if (options.pure_quads) cells.joined = join_odd_faces(cells.graph);
+  if (options.pure_quads) {
+    divide_into_quads(cells.graph, is_held);
+    cells.joined = join_odd_faces(cells.graph);
+  }
   cells.regularised = regularise(cells.graph, options.valence_price, &heights);
   if (options.strip_vertices > 0) {
     cells.strips = meet_vertex_count(cells.graph, wanted, options.odd_price,
@@ -277,16 +284,19 @@ Cells form_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions& o
                  Observer& observer) {
   const std::vector<Index> component = face_components(mesh);
   triangles.assign(*std::max_element(component.begin(), component.end()) + 1, Triangles::merged);
-  const Triangles last = options.pure_quads ? Triangles::kept : Triangles::held;
   std::optional<EdgeHeights> heights;
   while (true) {
     Cells cells =
         divide_cells(mesh, lines, options, component, triangles, borders, heights, observer);
     // Seen before the long work is done, as far as it can be.
-    if (find_starved(mesh, component, cells.graph, last, triangles)) continue;
+    if (find_starved(mesh, component, cells.graph, triangles)) continue;
     observer.report("pairing odd faces", 0.9);
-    regularise_cells(mesh, lines, options, *heights, cells);
-    if (!find_starved(mesh, component, cells.graph, last, triangles)) return cells;
+    const auto is_held = [&](Index dart) {
+      const SurfaceNode& node = cells.graph.node(cells.graph.graph().from(dart));
+      return triangles[component[node.at.face]] == Triangles::held;
+    };
+    regularise_cells(mesh, lines, options, *heights, is_held, cells);
+    if (!find_starved(mesh, component, cells.graph, triangles)) return cells;
   }
 }
 
@@ -310,8 +320,8 @@ MeshResult mesh_lines(const TriMesh& mesh, const LineSet& lines, const MeshOptio
   const auto merged = std::count(triangles.begin(), triangles.end(), Triangles::merged);
   const auto kept = static_cast<std::int64_t>(triangles.size()) - merged;
   if (kept > 0) {
-    report.warn(std::to_string(kept) +
-                " component(s) are smaller than the line distance and keep their triangles");
+    report.warn(std::to_string(kept) + " component(s) are smaller than the line distance and " +
+                (options.pure_quads ? "are made of their own triangles" : "keep their triangles"));
   }
   report.set("mesh.cut_pieces", static_cast<std::int64_t>(cells.cut_pieces));
   report.set("mesh.components_kept_as_triangles", kept);

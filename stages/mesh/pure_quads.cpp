@@ -141,4 +141,38 @@ Index join_odd_faces(PolygonGraph& graph) {
   return joined;
 }
 
+void divide_into_quads(PolygonGraph& graph, const std::function<bool(Index)>& is_divided) {
+  const DartGraph& g = graph.graph();
+  std::vector<Index> edges;
+  std::vector<DartLoop> cells;
+  for (Index d = 0; d < g.dart_count(); d += 2) {
+    if (g.is_alive(d) && is_divided(d)) edges.push_back(d);
+  }
+  graph.for_each_cell([&](Index d, const DartLoop& cell) {
+    if (is_divided(d)) cells.push_back(cell);
+  });
+  for (const Index edge : edges) graph.split(edge, 0.5);
+  for (const DartLoop& corners : cells) {
+    const DartLoop cell = graph.cell(corners.front());
+    const auto starts_at_middle = [&](Index d) {
+      return std::ranges::find(corners, d) == corners.end();
+    };
+    Vec3 inside = Vec3::Zero();
+    for (const Index d : corners) inside += graph.position(g.from(d)) / corners.size();
+    Index leaving = kNone;  // the node inside, for the middle reached last
+    Index first = kNone;
+    for (const Index d : cell) {
+      if (!starts_at_middle(d)) continue;
+      if (first == kNone) {
+        first = d;
+      } else if (leaving == kNone) {
+        leaving = graph.split(graph.connect(first, d), 0.5);
+        graph.move(g.from(leaving), inside);
+      } else {
+        leaving = graph.connect(leaving, d);
+      }
+    }
+  }
+}
+
 }  // namespace strake

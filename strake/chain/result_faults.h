@@ -14,7 +14,7 @@ struct ResultFaults {
   double distance = 0;  ///< root mean square, times the share of the count: it falls with that
   double largest = 0;   ///< distance
   double crossing = 0;  ///< share of the faces
-  double missing = 0;   ///< share of the count, too few or too many
+  double missing = 0;   ///< share of the count, more than one or two too few or too many
   double odd = 0;       ///< share of the faces that are no quads
   double thin = 0;      ///< share of the faces with an angle below 10 degrees
 };

@@ -97,7 +97,8 @@ void Session::keep(const Stage& stage) {
   const StageRecord& record = record_of(stage);
   const auto entry = values_.find(stage.output.name);
   const Value* output = entry == values_.end() ? nullptr : entry->second.value.get();
-  const std::string digest = keeper_({stage, record, output, get<TriMesh>("mesh"), seconds_});
+  const TriMesh* mesh = output == nullptr ? nullptr : mesh_of(*output);
+  const std::string digest = keeper_({stage, record, output, mesh, seconds_});
   if (output != nullptr) entry->second.digest = digest;
 }
 

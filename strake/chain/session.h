@@ -25,8 +25,8 @@ class Session {
   struct Kept {
     const Stage& stage;
     const StageRecord& record;
-    const Value* output;  ///< nullptr where the report is the result
-    const TriMesh& mesh;
+    const Value* output;                           ///< nullptr where the report is the result
+    const TriMesh* mesh;                           ///< the output belongs to; nullptr: none
     const std::map<std::string, double>& seconds;  ///< by stage, all its runs together
   };
   /// Writes that somewhere. \return the digest of the output as written; "" where there is none

@@ -75,9 +75,12 @@ double reached(const Session& session, const char* port, const Goal& goal) {
          static_cast<double>(goal.wanted);
 }
 
+bool shows_the_shape(const ResultFaults& faults) {
+  return faults.distance <= kSuspect && faults.largest <= kShapeLost && faults.crossing == 0;
+}
+
 bool is_too_coarse(const ResultFaults& faults) {
-  return faults.distance > kSuspect || faults.largest > kShapeLost || faults.crossing > 0 ||
-         faults.missing > kFarOff;
+  return !shows_the_shape(faults) || faults.missing > kFarOff;
 }
 
 /// Whether lines are so much farther off than another result that they miss the shape.
@@ -191,10 +194,11 @@ bool DecimatedRival::replace_if_too_coarse(Session& session, CrossingPlaces& cro
   if (other->faults.odd > kUsuallyOdd) {
     triangles = is_spent ? ", and has more triangles" : ", and has more triangles: ask for more";
   }
+  std::string why = "lines are too coarse for this shape";
+  if (is_spent) why = "faces along lines cross or miss this shape";
+  if (shows_the_shape(faults)) why = "lines miss the count";
   session.say(fmt::format(
-      "warning: {} at {} {}: the result was decimated instead{}; --lines-only keeps lines",
-      is_spent ? "faces along lines cross or miss this shape"
-               : "lines are too coarse for this shape",
+      "warning: {} at {} {}: the result was decimated instead{}; --lines-only keeps lines", why,
       wanted_, name_of(counted_), triangles));
   return true;
 }

@@ -55,9 +55,11 @@ TEST_F(Chain, FrontEndKeepsAToleranceAsThePrograms) {
       "--keep kept");
   EXPECT_EQ(bytes("part.obj"), bytes("again.obj"));
   // They say what they were made from, though that was never a file.
-  for (const std::string name : {"lines.hdf", "quads.hdf", "fitted.hdf", "refined.hdf"}) {
+  for (const std::string name : {"lines.hdf", "quads.hdf", "refined.hdf"}) {
     EXPECT_EQ(bytes(name), bytes("kept/" + name)) << name;
   }
+  // The last fit was made from cells that are divided since; no other one is in its place.
+  EXPECT_FALSE(std::filesystem::exists(file("kept/fitted.hdf")));
 }
 
 TEST_F(Chain, FrontEndKeepsWhatItWorksOnAsTheProgramsMakeIt) {
@@ -71,6 +73,7 @@ TEST_F(Chain, FrontEndKeepsWhatItWorksOnAsTheProgramsMakeIt) {
        {"coarse.hdf", "coarse-tensor.hdf", "coarse-field.hdf", "field.hdf"}) {
     EXPECT_EQ(bytes(name), bytes("kept/" + name)) << name;
   }
+  must("strake check kept/mesh.hdf coarse.hdf coarse-tensor.hdf coarse-field.hdf field.hdf");
   must("strake-trace coarse.hdf coarse-field.hdf -o lines.hdf --vertices 200 -q");
   must("strake-mesh coarse.hdf lines.hdf -o coarse-quads.hdf -q");
   must("strake-lift kept/mesh.hdf coarse.hdf coarse-quads.hdf -o lifted.hdf -q");

@@ -34,6 +34,9 @@ TEST_F(Errors, WrongUsage) {
   must_fail(kUsage, "strake remesh torus.ply -o x.obj --report ./x.obj", "is the output");
   must_fail(kUsage, "strake-tensor mesh.hdf -o t.hdf --report mesh.hdf", "is the input");
   must_fail(kUsage, "strake remesh torus.ply -o x.obj --extension papier", "cross, paper");
+  must_fail(kUsage, "strake remesh torus.ply -o x.obj --density \"\"", "--density names no file");
+  must_fail(kUsage, "strake remesh torus.ply -o x.obj --keep \"\"", "--keep names no folder");
+  must_fail(kUsage, "strake-tensor mesh.hdf -o t.hdf --report \"\"", "--report names no file");
   must_fail(kUsage, "strake nothing", "no command");
   must_fail(kUsage, "strake", "subcommand");
   must_fail(kUsage, "strake sample teapot -o x.ply", "teapot");
@@ -219,6 +222,14 @@ TEST_F(Errors, CheckTellsStaleFromForeign) {
   // A chain fits what was refined from an earlier fit, which it does not keep.
   must("strake remesh torus.ply -o q.obj --vertices 300 --keep kept -q");
   must("strake check torus.ply kept/mesh.hdf kept/fitted.hdf kept/refined.hdf kept/quads.hdf");
+  // Nor does it keep what its result within a tolerance was not made from.
+  must("strake remesh torus.ply -o q.obj --tolerance 0.5% --keep kept -q");
+  std::string kept;
+  for (const auto& entry : std::filesystem::directory_iterator(file("kept"))) {
+    if (entry.path().extension() == ".hdf") kept += " " + entry.path().string();
+  }
+  EXPECT_NE(kept.find("refined.hdf"), std::string::npos);
+  must("strake check torus.ply" + kept);
   must("strake remesh torus.ply -o whole.hdf --vertices 300 -q");
   must("strake check torus.ply whole.hdf");
   must("strake check lines.hdf mesh.hdf");  // what is not given is not missed

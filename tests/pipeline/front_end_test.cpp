@@ -131,6 +131,7 @@ TEST_F(FrontEnd, RefusesOptionsThatContradictEachOther) {
   refused("--vertices 300 --refine-vertices 400", "strake-refine; give");
   refused("--vertices 300 --decimate-vertices 400", "strake-decimate; give");
   refused("--vertices 300 --coarse-vertices 4000", "strake-coarsen; give");
+  refused("--vertices 300 --refine-partly", "misses a --tolerance");
   refused("--no-evaluate --evaluate-tolerance 0.1%", "--no-evaluate");
   refused("--vertices 300 --max-spacing 0.2%", "and 300 are wanted");
 }

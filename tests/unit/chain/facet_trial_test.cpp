@@ -62,7 +62,7 @@ class Trial {
       session.keep_with(
           [&](const Session::Kept& kept) {
             ++kept_times;
-            kept_features = std::ranges::count(kept.mesh.is_feature, 1);
+            kept_features = std::ranges::count(std::get<TriMesh>(*kept.output).is_feature, 1);
             return std::string();
           },
           [](const Value&, const TriMesh*) { return std::string(); });

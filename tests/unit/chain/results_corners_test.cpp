@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -178,6 +179,40 @@ TEST(Remesh, SaysThatCornersAreTooMany) {
   EXPECT_NE(said_at(2).find("a larger --feature-angle makes fewer features"), std::string::npos)
       << said_at(2);
   EXPECT_EQ(said_at(180).find("a larger --feature-angle makes fewer features"), std::string::npos);
+}
+
+// All quads of a plate that is far smaller than lines are apart were two on the same corners: a
+// surface, but one without a volume.
+TEST(Remesh, PureQuadsOfTinyPiecesAreNotBackToBack) {
+  SampleOptions sample;
+  sample.faces = 1000;
+  PolyMesh mesh = make_sample(SampleKind::sphere, sample);
+  const double radius = mesh.positions[0].norm();
+  for (int size = 1; size <= 6; ++size) {
+    const Index first = mesh.vertex_count();
+    for (int i = 0; i < 8; ++i) {
+      const Vec3 corner(i & 1, 0.3 * (i >> 1 & 1), 0.02 * (i >> 2));
+      mesh.positions.emplace_back(radius * (Vec3(2.2 + 0.3 * size, 0, 0) + 0.02 * size * corner));
+    }
+    for (const auto& [a, b, c, d] : std::vector<std::array<Index, 4>>{
+             {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+      mesh.add_face(std::array<Index, 4>{first + a, first + b, first + c, first + d});
+    }
+  }
+  for (const std::int64_t vertices : {60, 80, 100, 150}) {
+    RemeshOptions options;
+    options.trace.vertices = vertices;
+    options.mesh.pure_quads = true;
+    options.measure = false;
+    const PolyMesh result = remesh({mesh, {}, {}, {}}, options).quads.mesh;
+    std::set<std::vector<Index>> corners;
+    for (Index f = 0; f < result.face_count(); ++f) {
+      EXPECT_EQ(result.face(f).size(), 4u);
+      std::vector<Index> own(result.face(f).begin(), result.face(f).end());
+      std::ranges::sort(own);
+      EXPECT_TRUE(corners.insert(own).second) << vertices;
+    }
+  }
 }
 
 }  // namespace

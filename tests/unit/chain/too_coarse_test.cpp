@@ -70,6 +70,40 @@ TEST(TooCoarse, ACountIsMetThatLinesMiss) {
   EXPECT_GT(std::abs(lines - kFewVertices), kFewVertices / 4);
 }
 
+/// A cube whose lines make twelve vertices, and nothing near to that.
+PolyMesh cube() {
+  PolyMesh mesh;
+  for (int i = 0; i < 8; ++i) mesh.positions.emplace_back(i & 1, i >> 1 & 1, i >> 2);
+  for (const auto& face : std::vector<std::array<Index, 4>>{
+           {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+    mesh.add_face(face);
+  }
+  return mesh;
+}
+
+// One vertex more than wanted is no reason to give up lines that are exact, and the words are of
+// the count where it is missed by more.
+TEST(TooCoarse, LinesNextToTheCountStay) {
+  RemeshOptions options;
+  options.trace.vertices = 11;
+  const RemeshResult result = remesh({cube(), {}, {}, {}}, options);
+  EXPECT_FALSE(is_decimated(result));
+  EXPECT_EQ(result.quads.mesh.vertex_count(), 12);
+  EXPECT_EQ(analyse(result.quads.mesh).quads, result.quads.mesh.face_count());
+  options.measure = false;
+  int decimated = 0;
+  for (std::int64_t wanted = 20; wanted <= 40; ++wanted) {
+    options.trace.vertices = wanted;
+    const RemeshResult far = remesh({cube(), {}, {}, {}}, options);
+    if (!is_decimated(far)) continue;
+    ++decimated;
+    EXPECT_TRUE(std::ranges::any_of(far.messages, [](const std::string& message) {
+      return message.find("lines miss the count at") != std::string::npos;
+    })) << wanted;
+  }
+  EXPECT_GT(decimated, 0);
+}
+
 /// Fins on a plate: the outline of a comb, extruded.
 PolyMesh comb(int fins) {
   PolyMesh mesh;

@@ -22,6 +22,8 @@ TEST(WantedCount, CornersAreTheReasonWhereTheyAreMoreThanWanted) {
   EXPECT_NE(said.find("120 corners"), std::string::npos) << said;
   EXPECT_NE(missed_count({Counted::vertices, 100, 130, 100}, "it has", "why").find(": why"),
             std::string::npos);
+  EXPECT_NE(missed_count({Counted::vertices, 100, 80, 120}, "it has", "why").find(": why"),
+            std::string::npos);  // they are no reason for too few
 }
 
 }  // namespace
