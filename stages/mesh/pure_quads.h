@@ -6,6 +6,9 @@
 
 namespace strake {
 
+// Quads of all faces: odd ones that are left are joined along the cheapest ways between them, and
+// pieces too small for that are divided.
+
 /// Divides cells into a quad for each corner, by the middles of their edges and a node inside.
 /// \param is_divided  whether a cell is, by a dart of it; the same for all cells that are joined
 void divide_into_quads(PolygonGraph& graph, const std::function<bool(Index)>& is_divided);
