@@ -4,8 +4,8 @@
 
 #include "stages/mesh/polygon_graph.h"
 
-/// Makes all faces quads: odd ones that are left are joined along the cheapest ways between them, and
-/// pieces too small for that are divided.
+/// Makes all faces quads: odd ones that are left are joined along the cheapest ways between them,
+/// and pieces too small for that are divided.
 namespace strake {
 
 /// Divides cells into a quad for each corner, by the middles of their edges and a node inside.

@@ -133,10 +133,9 @@ void Chain::check_goals() const {
   };
   require_untouched(refine, untouched.refine, "refine-tolerance");
   require_untouched(refine, untouched.refine, "refine-vertices");
-  if (goals == 0 || trace.option("tolerance").value().empty()) {
-    if (refine.option("refine-partly").value() == "true") {
-      throw UsageError("--refine-partly hands on what misses a --tolerance; give one");
-    }
+  const bool is_partly = refine.option("refine-partly").value() == "true";
+  if (is_partly && trace.option("tolerance").value().empty()) {
+    throw UsageError("--refine-partly hands on what misses a --tolerance; give one");
   }
   require_untouched(decimate, untouched.decimate, "decimate-vertices");
   require_untouched(coarsen, untouched.coarsen, "coarse-vertices");

@@ -45,6 +45,11 @@ double area(const std::vector<Vec3>& positions, const Triangle& corners) {
   return (positions[corners[1]] - a).cross(positions[corners[2]] - a).norm() / 2;
 }
 
+}  // namespace
+
+/// What CellMeasure keeps.
+namespace measuring {
+
 /// Sums over samples.
 struct Sums {
   double square = 0;
@@ -64,83 +69,11 @@ struct Sums {
   [[nodiscard]] double mean_square() const { return weight > 0 ? square / weight : 0; }
 };
 
-/// Least squares fit of heights s over a plane: s = c + g u + h v + a u^2 + b v^2 + t u v.
-class BendFit {
- public:
-  /// \param normal  of the plane, not zero
-  BendFit(const Vec3& centre, const Vec3& normal)
-      : centre_(centre), u_(normal.unitOrthogonal()), v_(normal.normalized().cross(u_)) {}
-
-  void add(const Vec3& at, double height) {
-    const double u = u_.dot(at - centre_);
-    const double v = v_.dot(at - centre_);
-    Row row;
-    row << 1, u, v, u * u, v * v, u * v;
-    normal_ += row * row.transpose();
-    right_ += height * row;
-    reach_ = std::max(reach_, std::hypot(u, v));
-  }
-
-  [[nodiscard]] Mat3 bend() const {
-    if (!(reach_ > 0)) return Mat3::Zero();
-    Row scale;
-    scale << 1, reach_, reach_, reach_ * reach_, reach_ * reach_, reach_ * reach_;
-    const Row inverse = scale.cwiseInverse();
-    const Eigen::Matrix<double, 6, 6> scaled =
-        inverse.asDiagonal() * normal_ * inverse.asDiagonal();
-    const Row found = inverse.asDiagonal() * scaled.completeOrthogonalDecomposition().solve(
-                                                 Row(inverse.asDiagonal() * right_));
-    return found[3] * u_ * u_.transpose() + found[4] * v_ * v_.transpose() +
-           found[5] / 2 * (u_ * v_.transpose() + v_ * u_.transpose());
-  }
-
- private:
-  using Row = Eigen::Matrix<double, 6, 1>;
-
-  Vec3 centre_;
-  Vec3 u_;
-  Vec3 v_;
-  Eigen::Matrix<double, 6, 6> normal_ = Eigen::Matrix<double, 6, 6>::Zero();
-  Row right_ = Row::Zero();
-  double reach_ = 0;
-};
-
 /// Measured from one face of the result to the input.
 struct FromFace {
   Sums sums;
   Mat3 bend = Mat3::Zero();
 };
-
-FromFace measure_face(const ComparedSurfaces& surfaces, Index f, int rows) {
-  Sums sums;
-  const std::vector<Vec3>& positions = surfaces.positions();
-  const std::span<const Index> face = surfaces.faces().face(f);
-  Vec3 centre = Vec3::Zero();
-  Index guess = kNone;
-  for (const Index v : face) {
-    centre += positions[v] / static_cast<double>(face.size());
-    const ClosestPoint foot = surfaces.input().closest_near(positions[v], guess);
-    guess = foot.triangle;
-    sums.add(foot.distance, 0);
-  }
-  const Vec3 normal = newell_normal(positions, face);
-  const bool has_plane = normal.norm() > 0;
-  BendFit fit(centre, has_plane ? normal : Vec3(Vec3::UnitX()));
-  for (Index t = surfaces.first_triangle(f); t < surfaces.first_triangle(f + 1); ++t) {
-    const Triangle& corners = surfaces.triangles().corners[t];
-    const double weight = area(positions, corners) / place_count(rows);
-    for_each_place(rows, [&](const Barycentric& at) {
-      const Vec3 p = place(positions, corners, at);
-      const ClosestPoint foot = surfaces.input().closest_near(p, guess);
-      guess = foot.triangle;
-      sums.add(foot.distance, weight);
-      const double side =
-          (p - surfaces.input().point(foot)).dot(surfaces.input_normals()[foot.triangle]);
-      fit.add(p, std::copysign(foot.distance, -side));
-    });
-  }
-  return {sums, has_plane ? fit.bend() : Mat3(Mat3::Zero())};
-}
 
 /// What of a result is nearest to a sample of the input.
 struct Hit {
@@ -225,6 +158,87 @@ class InputSamples {
   std::vector<Hit> at_vertex_;      ///< [V]
   std::vector<Hit> inside_;         ///< in faces
 };
+
+}  // namespace measuring
+
+namespace {
+
+using measuring::FromFace;
+using measuring::Hit;
+using measuring::InputSamples;
+using measuring::Sums;
+
+/// Least squares fit of heights s over a plane: s = c + g u + h v + a u^2 + b v^2 + t u v.
+class BendFit {
+ public:
+  /// \param normal  of the plane, not zero
+  BendFit(const Vec3& centre, const Vec3& normal)
+      : centre_(centre), u_(normal.unitOrthogonal()), v_(normal.normalized().cross(u_)) {}
+
+  void add(const Vec3& at, double height) {
+    const double u = u_.dot(at - centre_);
+    const double v = v_.dot(at - centre_);
+    Row row;
+    row << 1, u, v, u * u, v * v, u * v;
+    normal_ += row * row.transpose();
+    right_ += height * row;
+    reach_ = std::max(reach_, std::hypot(u, v));
+  }
+
+  [[nodiscard]] Mat3 bend() const {
+    if (!(reach_ > 0)) return Mat3::Zero();
+    Row scale;
+    scale << 1, reach_, reach_, reach_ * reach_, reach_ * reach_, reach_ * reach_;
+    const Row inverse = scale.cwiseInverse();
+    const Eigen::Matrix<double, 6, 6> scaled =
+        inverse.asDiagonal() * normal_ * inverse.asDiagonal();
+    const Row found = inverse.asDiagonal() * scaled.completeOrthogonalDecomposition().solve(
+                                                 Row(inverse.asDiagonal() * right_));
+    return found[3] * u_ * u_.transpose() + found[4] * v_ * v_.transpose() +
+           found[5] / 2 * (u_ * v_.transpose() + v_ * u_.transpose());
+  }
+
+ private:
+  using Row = Eigen::Matrix<double, 6, 1>;
+
+  Vec3 centre_;
+  Vec3 u_;
+  Vec3 v_;
+  Eigen::Matrix<double, 6, 6> normal_ = Eigen::Matrix<double, 6, 6>::Zero();
+  Row right_ = Row::Zero();
+  double reach_ = 0;
+};
+
+FromFace measure_face(const ComparedSurfaces& surfaces, Index f, int rows) {
+  Sums sums;
+  const std::vector<Vec3>& positions = surfaces.positions();
+  const std::span<const Index> face = surfaces.faces().face(f);
+  Vec3 centre = Vec3::Zero();
+  Index guess = kNone;
+  for (const Index v : face) {
+    centre += positions[v] / static_cast<double>(face.size());
+    const ClosestPoint foot = surfaces.input().closest_near(positions[v], guess);
+    guess = foot.triangle;
+    sums.add(foot.distance, 0);
+  }
+  const Vec3 normal = newell_normal(positions, face);
+  const bool has_plane = normal.norm() > 0;
+  BendFit fit(centre, has_plane ? normal : Vec3(Vec3::UnitX()));
+  for (Index t = surfaces.first_triangle(f); t < surfaces.first_triangle(f + 1); ++t) {
+    const Triangle& corners = surfaces.triangles().corners[t];
+    const double weight = area(positions, corners) / place_count(rows);
+    for_each_place(rows, [&](const Barycentric& at) {
+      const Vec3 p = place(positions, corners, at);
+      const ClosestPoint foot = surfaces.input().closest_near(p, guess);
+      guess = foot.triangle;
+      sums.add(foot.distance, weight);
+      const double side =
+          (p - surfaces.input().point(foot)).dot(surfaces.input_normals()[foot.triangle]);
+      fit.add(p, std::copysign(foot.distance, -side));
+    });
+  }
+  return {sums, has_plane ? fit.bend() : Mat3(Mat3::Zero())};
+}
 
 /// [F of `after`] the number of the same face, corner by corner, in `before`; kNone: there is none.
 std::vector<Index> faces_before(const PolyMesh& before, const PolyMesh& after) {
