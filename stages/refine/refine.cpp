@@ -121,7 +121,6 @@ std::int64_t refine_to_tolerance(const TriMesh& mesh, Refinement& refinement,
 std::int64_t refine_to_count(const TriMesh& mesh, Refinement& refinement,
                              const RefineOptions& options, Observer& observer) {
   const auto input = std::make_shared<const InputSurface>(mesh);
-  CellMeasure measure;
   std::int64_t round = 0;
   for (; round < std::min(options.rounds, kRoundsOfCount); ++round) {
     observer.report("dividing cells", double(round) / double(kRoundsOfCount));
@@ -129,7 +128,7 @@ std::int64_t refine_to_count(const TriMesh& mesh, Refinement& refinement,
     const auto cells = static_cast<double>(missing) / kVerticesPerCell;
     if (cells < 1) break;
     const ComparedSurfaces surfaces(input, refinement.quads());
-    divide_without_faults(refinement, surfaces, cells_by_distance(measure.measure(surfaces)),
+    divide_without_faults(refinement, surfaces, cells_by_distance(measure_cells(surfaces)),
                           static_cast<std::size_t>(cells), std::numeric_limits<double>::infinity());
   }
   refinement.pair_odd_cells(input);
