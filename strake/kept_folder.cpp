@@ -18,6 +18,31 @@
 namespace strake {
 namespace fs = std::filesystem;
 
+namespace {
+
+/// The result and what it was made from, step by step.
+/// \param files  artifacts to look among
+std::set<std::string> origin_of(const std::string& result, const std::vector<std::string>& files) {
+  std::map<std::string, std::string> made;  // by content
+  for (const std::string& file : files) made.emplace(content_digest(file), file);
+  std::set<std::string> origin;
+  std::vector<std::string> queue;
+  if (std::ranges::find(files, result) != files.end()) queue.push_back(result);
+  while (!queue.empty()) {
+    const std::string file = std::move(queue.back());
+    queue.pop_back();
+    if (!origin.insert(file).second) continue;
+    for (const auto& input : read_artifact_info(file).provenance.inputs) {
+      if (const auto found = made.find(input.digest); found != made.end()) {
+        queue.push_back(found->second);
+      }
+    }
+  }
+  return origin;
+}
+
+}  // namespace
+
 KeptFolder::KeptFolder(fs::path folder, std::vector<const Stage*> stages)
     : folder_(std::move(folder)), stages_(std::move(stages)) {}
 
@@ -73,31 +98,15 @@ Session::Keeper KeptFolder::keeper() const {
 
 void KeptFolder::end(const std::string& port) const {
   std::vector<std::string> kept;
-  std::map<std::string, std::string> made;  // paths by content
-  for (const Stage* stage : stages_) {
-    const fs::path path = folder_ / (stage->output.name + ".hdf");
-    std::error_code ignored;
-    if (stage->output.kind == PortKind::report || !fs::exists(path, ignored)) continue;
-    if (std::ranges::find(kept, path.string()) != kept.end()) continue;
-    kept.push_back(path.string());
-    made.emplace(content_digest(path), path.string());
+  std::error_code ignored;
+  for (const fs::path& path : files()) {
+    if (path.extension() == ".hdf" && fs::exists(path, ignored)) kept.push_back(path.string());
   }
-  std::set<std::string> led_to_it;
-  std::vector<std::string> queue = {(folder_ / (port + ".hdf")).string()};
-  while (!queue.empty()) {
-    const std::string path = std::move(queue.back());
-    queue.pop_back();
-    if (std::ranges::find(kept, path) == kept.end() || !led_to_it.insert(path).second) continue;
-    for (const auto& input : read_artifact_info(path).provenance.inputs) {
-      if (const auto found = made.find(input.digest); found != made.end()) {
-        queue.push_back(found->second);
-      }
-    }
-  }
+  const std::set<std::string> origin = origin_of((folder_ / (port + ".hdf")).string(), kept);
   const auto remove_one = [&] {
     for (const BrokenRelation& broken : broken_relations(kept)) {
       for (const std::string& path : {broken.file, broken.other}) {
-        if (led_to_it.contains(path)) continue;
+        if (origin.contains(path)) continue;
         std::erase(kept, path);
         fs::remove(path);
         for (const Stage* stage : stages_) {

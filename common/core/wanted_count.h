@@ -22,7 +22,7 @@ struct ReachedCount {
   Counted counted = Counted::vertices;
   std::int64_t wanted = 0;  ///< positive
   std::int64_t reached = 0;
-  std::int64_t corners = 0;  ///< of feature and boundary lines: no result has fewer vertices
+  std::int64_t corners = 0;  ///< of feature and boundary lines, most of which stay
 };
 
 /// A sentence for the user where a wanted count is missed by more than `kCountTolerance`, else "".
