@@ -26,9 +26,39 @@ double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+/// Signals that ask to end wait while it lives. Between fork and exec a handler of the parent's
+/// would swallow them.
+class HeldSignals {
+ public:
+  HeldSignals() {
+    sigset_t asking;
+    ::sigemptyset(&asking);
+    for (const int number : kAsking) ::sigaddset(&asking, number);
+    ::pthread_sigmask(SIG_BLOCK, &asking, &before_);
+  }
+  ~HeldSignals() { release(); }
+  HeldSignals(const HeldSignals&) = delete;
+  HeldSignals& operator=(const HeldSignals&) = delete;
+
+  /// In the new process: they end it from here on.
+  void release_as_child() const {
+    for (const int number : kAsking) ::signal(number, SIG_DFL);
+    release();
+  }
+
+ private:
+  static constexpr std::array kAsking{SIGINT, SIGTERM};
+
+  void release() const { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+
+  sigset_t before_{};
+};
+
 /// What runs in the new process: only calls that are safe between fork and exec.
-[[noreturn]] void become(char* const* arguments, const char* folder, int output, pid_t parent) {
+[[noreturn]] void become(char* const* arguments, const char* folder, int output, pid_t parent,
+                         const HeldSignals& held) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  held.release_as_child();
   if (::getppid() != parent) ::_exit(kCannotStart);  // it died before the line above
   const int nothing = ::open("/dev/null", O_RDONLY);
   ::dup2(nothing, STDIN_FILENO);
@@ -65,8 +95,9 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments,
     throw InputError(fmt::format("cannot start '{}': {}", arguments[0], std::strerror(errno)));
   }
   const pid_t parent = ::getpid();
+  const HeldSignals held;
   process_ = ::fork();
-  if (process_ == 0) become(pointers.data(), folder.c_str(), pipe_ends[1], parent);
+  if (process_ == 0) become(pointers.data(), folder.c_str(), pipe_ends[1], parent, held);
   const int error = errno;
   ::close(pipe_ends[1]);
   output_ = pipe_ends[0];
