@@ -43,6 +43,11 @@ constexpr std::int64_t kManyWanted = 1000;
 constexpr double kWithinStrips = 0.08;
 constexpr double kWithinStripsAtLast = 0.5;
 
+/// Crossings of lines, and times the count, beyond which nobody needs cells to see that there are too
+/// many of them: where lines lie on each other thousands of them come at once.
+constexpr std::int64_t kManyCrossings = 20000;
+constexpr std::int64_t kFarTooMany = 30;
+
 DensityMatch match_density(const Session& session, const GoalStages& stages) {
   Session plain = session;
   plain.withdraw("density");
@@ -148,7 +153,13 @@ bool search_scale(Session& session, const GoalStages& stages, const LineAim& aim
   while (const std::optional<double> scale = search.next()) {
     option.parse_into(fmt::format("{}", *scale));
     try {
-      trace_and_mesh(session, stages);
+      trace_lines(session, stages);
+      const std::int64_t crossings = possible_crossings(session);
+      if (best && crossings > std::max(kManyCrossings, kFarTooMany * aim.count)) {
+        search.record(*scale, crossings);
+        continue;
+      }
+      session.run(stages.mesh);
     } catch (const AlgorithmError& error) {
       if (search.trial_count() == 0) throw;
       session.say(std::string("warning: gave up correcting the count: ") + error.what());

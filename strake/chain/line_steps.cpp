@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "common/core/fields.h"
@@ -62,12 +63,29 @@ void want_closer(Session& session, const SizeField& wanted, const std::vector<Ve
 
 }  // namespace
 
-void trace_and_mesh(Session& session, const GoalStages& stages) {
+void trace_lines(Session& session, const GoalStages& stages) {
   // Earlier results make room for those that take their place.
   for (const char* port : {"lines", "quads", "fitted", "refined", "uncrossed"})
     session.withdraw(port);
   session.run(stages.trace);
+}
+
+void trace_and_mesh(Session& session, const GoalStages& stages) {
+  trace_lines(session, stages);
   session.run(stages.mesh);
+}
+
+std::int64_t possible_crossings(const Session& session) {
+  const auto& lines = session.get<LineSet>("lines");
+  std::vector<std::array<std::int64_t, 2>> chords(session.get<TriMesh>("mesh").face_count());
+  for (std::size_t i = 0; i < lines.chord_face.size(); ++i) {
+    if (lines.chord_face[i] == kNone) continue;
+    if (lines.chord_family[i] == LineFamily::minimum) ++chords[lines.chord_face[i]][0];
+    if (lines.chord_family[i] == LineFamily::maximum) ++chords[lines.chord_face[i]][1];
+  }
+  std::int64_t count = 0;
+  for (const auto& [along, across] : chords) count += along * across;
+  return count;
 }
 
 void mesh_with_strips(Session& session, const GoalStages& stages, const LineAim& aim) {

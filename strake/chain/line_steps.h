@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,11 +13,19 @@
 /// session has, and changes the scale of distances that the stage trace has as an option.
 namespace strake {
 
+/// Traces anew: "lines". There are no cells then.
+void trace_lines(Session& session, const GoalStages& stages);
+
 /// Traces and makes cells anew: "lines" and "quads".
 void trace_and_mesh(Session& session, const GoalStages& stages);
 
-/// Likewise, and fits and keeps the result: "fitted".
+/// Traces and makes cells anew, and fits and keeps the result: "fitted".
 void trace_mesh_and_fit(Session& session, const GoalStages& stages);
+
+/// Chords of one family times those of the other, summed over faces: more crossings of both there
+/// cannot be.
+/// \pre traced
+std::int64_t possible_crossings(const Session& session);
 
 /// Makes cells of the present lines anew, with strips of quads split or taken out for the count.
 void mesh_with_strips(Session& session, const GoalStages& stages, const LineAim& aim);
