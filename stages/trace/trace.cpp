@@ -103,6 +103,24 @@ void require_room(double least, double count, const TraceOptions& options) {
                    " are wanted; leave one of them out");
 }
 
+/// Refuses distances that nobody can have meant: of a few hundred faces, lines for many millions of
+/// vertices take hours and more memory than there is.
+/// \param vertices  that these distances give, about
+/// \throw UsageError
+void require_sense(double vertices, const TriMesh& mesh, const TraceOptions& options) {
+  constexpr double kMany = 2e6;
+  constexpr double kTimesFaces = 100;
+  const double most = std::max(
+      {kMany, kTimesFaces * mesh.face_count(), kFarTooMany * wanted_count(options).value_or(0)});
+  if (vertices <= most) return;
+  throw UsageError(
+      "lines as close as asked for (--max-spacing, --spacing-scale, --tolerance or a "
+      "density) give about " +
+      std::to_string(std::llround(vertices)) + " vertices, of a mesh of " +
+      std::to_string(mesh.face_count()) +
+      " faces; give them more room, or the count with --vertices");
+}
+
 /// How far lines are to be apart, but for a factor on all distances.
 class WantedSpacing {
  public:
@@ -143,6 +161,11 @@ class WantedSpacing {
     Spacing spacing = model_.for_tolerance(tolerance_of_family_, limits);
     if (line_flow_ > 0) model_.follow_lines(line_flow_, limits, spacing);
     return spacing;
+  }
+
+  /// Vertices to expect of distances.
+  [[nodiscard]] double vertices(const Spacing& spacing) const {
+    return predicted_vertices(model_.areas(), spacing);
   }
 
   /// The tolerance that the distances stand for, model units.
@@ -197,6 +220,7 @@ TraceResult trace_at(const TriMesh& mesh, const PrincipalField& field, const Wan
                      Observer& observer) {
   observer.report("choosing line distances", 0);
   Spacing spacing = wanted.at(scale);
+  require_sense(wanted.vertices(spacing), mesh, options);
   const TraceDomain domain{
       mesh, field, spacing, FaceNormals(mesh),
       border_course(mesh, sizes_at_vertices(mesh, spacing.along, spacing.across),

@@ -43,8 +43,8 @@ constexpr std::int64_t kManyWanted = 1000;
 constexpr double kWithinStrips = 0.08;
 constexpr double kWithinStripsAtLast = 0.5;
 
-/// Crossings of lines, and times the count, beyond which nobody needs cells to see that there are too
-/// many of them: where lines lie on each other thousands of them come at once.
+/// Crossings of lines, and times the count, beyond which nobody needs cells to see that there are
+/// too many of them: where lines lie on each other thousands of them come at once.
 constexpr std::int64_t kManyCrossings = 20000;
 constexpr std::int64_t kFarTooMany = 30;
 

@@ -284,5 +284,16 @@ TEST(Trace, RefusesTwoGoalsAtOnce) {
   EXPECT_THROW(support::trace(prepared, options), UsageError);
 }
 
+TEST(Trace, RefusesDistancesOfMillionsOfLinesOnFewFaces) {
+  support::Prepared prepared;
+  prepared.mesh = sample_mesh(SampleKind::plane, 500);
+  prepared.field = field_along(prepared.mesh, [](const Vec3&) { return Vec3::UnitX(); });
+  TraceOptions options;
+  options.max_spacing = percent(0.02);
+  EXPECT_THROW(support::trace(prepared, options), UsageError);
+  options.max_spacing = percent(5);
+  EXPECT_NO_THROW(support::trace(prepared, options));
+}
+
 }  // namespace
 }  // namespace strake
