@@ -43,9 +43,9 @@ constexpr std::int64_t kManyWanted = 1000;
 constexpr double kWithinStrips = 0.08;
 constexpr double kWithinStripsAtLast = 0.5;
 
-/// Crossings of lines, and times the count, beyond which nobody needs cells to see that there are
-/// too many of them: where lines lie on each other thousands of them come at once.
-constexpr std::int64_t kManyCrossings = 20000;
+/// Nodes that lines may have, and times the count, beyond which nobody needs cells to see that
+/// there are too many of them: on needles and spikes thousands come at once.
+constexpr std::int64_t kManyNodes = 20000;
 constexpr std::int64_t kFarTooMany = 30;
 
 DensityMatch match_density(const Session& session, const GoalStages& stages) {
@@ -154,9 +154,9 @@ bool search_scale(Session& session, const GoalStages& stages, const LineAim& aim
     option.parse_into(fmt::format("{}", *scale));
     try {
       trace_lines(session, stages);
-      const std::int64_t crossings = possible_crossings(session);
-      if (best && crossings > std::max(kManyCrossings, kFarTooMany * aim.count)) {
-        search.record(*scale, crossings);
+      const std::int64_t nodes = most_nodes(session);
+      if (best && nodes > std::max(kManyNodes, kFarTooMany * aim.count)) {
+        search.record(*scale, nodes);
         continue;
       }
       session.run(stages.mesh);

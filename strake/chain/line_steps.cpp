@@ -75,15 +75,18 @@ void trace_and_mesh(Session& session, const GoalStages& stages) {
   session.run(stages.mesh);
 }
 
-std::int64_t possible_crossings(const Session& session) {
+std::int64_t most_nodes(const Session& session) {
   const auto& lines = session.get<LineSet>("lines");
-  std::vector<std::array<std::int64_t, 2>> chords(session.get<TriMesh>("mesh").face_count());
-  for (std::size_t i = 0; i < lines.chord_face.size(); ++i) {
-    if (lines.chord_face[i] == kNone) continue;
-    if (lines.chord_family[i] == LineFamily::minimum) ++chords[lines.chord_face[i]][0];
-    if (lines.chord_family[i] == LineFamily::maximum) ++chords[lines.chord_face[i]][1];
-  }
+  const auto& mesh = session.get<TriMesh>("mesh");
+  std::vector<std::array<std::int64_t, 2>> chords(mesh.face_count());
   std::int64_t count = 0;
+  for (std::size_t i = 0; i < lines.points.size(); ++i) {
+    const LineFamily family = lines.chord_family[i];
+    if (family != LineFamily::minimum && family != LineFamily::maximum) continue;
+    if (mesh.is_barrier(lines.points[i].halfedge)) ++count;
+    if (lines.chord_face[i] == kNone) continue;
+    ++chords[lines.chord_face[i]][family == LineFamily::minimum ? 0 : 1];
+  }
   for (const auto& [along, across] : chords) count += along * across;
   return count;
 }

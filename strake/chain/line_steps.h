@@ -22,10 +22,9 @@ void trace_and_mesh(Session& session, const GoalStages& stages);
 /// Traces and makes cells anew, and fits and keeps the result: "fitted".
 void trace_mesh_and_fit(Session& session, const GoalStages& stages);
 
-/// Chords of one family times those of the other, summed over faces: more crossings of both there
-/// cannot be.
-/// \pre traced
-std::int64_t possible_crossings(const Session& session);
+/// Nodes that the present lines can have, at most: where they cross feature and boundary lines, and
+/// in each face the chords of one family times those of the other.
+std::int64_t most_nodes(const Session& session);
 
 /// Makes cells of the present lines anew, with strips of quads split or taken out for the count.
 void mesh_with_strips(Session& session, const GoalStages& stages, const LineAim& aim);
