@@ -192,7 +192,7 @@ def interrupt_starts(programs, folder):
         run = Place(programs, folder / f"starts{number}").start("run")
         children = pathlib.Path(f"/proc/{run.pid}/task/{run.pid}/children")
         while not (begun := children.read_text().split()):
-            pass
+            check(run.poll() is None, "the run started nothing")
         os.kill(int(begun[0]), signal.SIGINT)
         out, err = run.communicate(timeout=30)
         check(run.returncode != 0, "an interruption was swallowed:", out)
