@@ -40,7 +40,7 @@ void on_interrupt(int /*signal*/) {
 constexpr std::chrono::milliseconds kPatience{500};
 /// Bytes of memory up to which a run keeps what it has: taking it in anew takes small ones longer
 /// than their stages do.
-constexpr std::size_t kSmall = std::size_t{64} << 20;
+constexpr std::size_t kSmallRun = std::size_t{64} << 20;
 
 [[noreturn]] void end_after_interrupt(int pipe, const std::string& program, LogFormat format) {
   char byte = 0;
@@ -149,7 +149,7 @@ ConsoleObserver::~ConsoleObserver() { clear_bar(); }
 void ConsoleObserver::begin(const std::string& label) {
   // What the last one has freed makes room for this one.
   const struct mallinfo2 memory = mallinfo2();
-  if (memory.arena + memory.hblkhd > kSmall) malloc_trim(0);
+  if (memory.arena + memory.hblkhd > kSmallRun) malloc_trim(0);
   clear_bar();
   label_ = label;
   phase_.clear();

@@ -153,9 +153,9 @@ bool search_scale(Session& session, const GoalStages& stages, const LineAim& aim
   while (const std::optional<double> scale = search.next()) {
     option.parse_into(fmt::format("{}", *scale));
     try {
-      trace_lines(session, stages);
-      const std::int64_t nodes = most_nodes(session);
-      if (best && nodes > std::max(kManyNodes, kFarTooMany * aim.count)) {
+      trace_anew(session, stages);
+      const std::int64_t nodes = best ? most_nodes(session) : 0;
+      if (nodes > std::max(kManyNodes, kFarTooMany * aim.count)) {
         search.record(*scale, nodes);
         continue;
       }

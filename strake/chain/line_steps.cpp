@@ -63,7 +63,7 @@ void want_closer(Session& session, const SizeField& wanted, const std::vector<Ve
 
 }  // namespace
 
-void trace_lines(Session& session, const GoalStages& stages) {
+void trace_anew(Session& session, const GoalStages& stages) {
   // Earlier results make room for those that take their place.
   for (const char* port : {"lines", "quads", "fitted", "refined", "uncrossed"})
     session.withdraw(port);
@@ -71,7 +71,7 @@ void trace_lines(Session& session, const GoalStages& stages) {
 }
 
 void trace_and_mesh(Session& session, const GoalStages& stages) {
-  trace_lines(session, stages);
+  trace_anew(session, stages);
   session.run(stages.mesh);
 }
 

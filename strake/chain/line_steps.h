@@ -14,7 +14,7 @@
 namespace strake {
 
 /// Traces anew: "lines". There are no cells then.
-void trace_lines(Session& session, const GoalStages& stages);
+void trace_anew(Session& session, const GoalStages& stages);
 
 /// Traces and makes cells anew: "lines" and "quads".
 void trace_and_mesh(Session& session, const GoalStages& stages);
@@ -22,8 +22,9 @@ void trace_and_mesh(Session& session, const GoalStages& stages);
 /// Traces and makes cells anew, and fits and keeps the result: "fitted".
 void trace_mesh_and_fit(Session& session, const GoalStages& stages);
 
-/// Nodes that the present lines can have, at most: where they cross feature and boundary lines, and
-/// in each face the chords of one family times those of the other.
+/// Nodes that the present lines have at most, unless lines of one family cross each other: where
+/// they cross feature and boundary lines, and in each face the chords of one family times those of
+/// the other.
 std::int64_t most_nodes(const Session& session);
 
 /// Makes cells of the present lines anew, with strips of quads split or taken out for the count.
