@@ -17,6 +17,7 @@
 #include "stages/fit/block_system.h"
 #include "stages/fit/deviation.h"
 #include "stages/fit/divide_crossing.h"
+#include "stages/fit/even_flats.h"
 #include "stages/fit/face_guard.h"
 #include "stages/fit/flow_lines.h"
 #include "stages/fit/move_apart.h"
@@ -55,6 +56,11 @@ constexpr double kShortestMove = 1e-8;
 /// The least share of the mean area of a cell that counts: without any, nothing would hold a
 /// vertex.
 constexpr double kLeastShare = 1e-12;
+/// Share of `kUnseen` by which a flat may be off a plane where the root mean square of the distance
+/// is less than that, and by which evening it out may make it farther off.
+constexpr double kLeastFlat = 1e-4;
+/// Times the largest and the mean squared distance that evening out flats may end at.
+constexpr double kMostFarther = 1.005;
 constexpr std::array<double, 3> kSteps = {1, 0.5, 0.25};  ///< shares of the moves that are tried
 constexpr double kLeastOfMove = 0.3;  ///< share of it that is made where faces would cross
 constexpr int kMostRetreats = 14;     ///< times that vertices are put back for one step
@@ -122,6 +128,26 @@ class Fit {
     return false;
   }
 
+  /// Evens out the vertices inside flats, unless the surface is not as flat there as it seems.
+  /// \return number of vertices moved
+  Index even_flats() {
+    const std::vector<VertexPlaces::State> start = places_.states();
+    const double largest = deviation_.largest();
+    const double mean = deviation_.mean();
+    const double least = kLeastFlat * unseen_;
+    const Index moved =
+        fitting::even_flats(quads_.mesh, field_, std::max(std::sqrt(mean), least), places_);
+    if (moved == 0) return 0;
+    places_.update_feet();
+    measure();
+    if (deviation_.mean() <= kMostFarther * mean + least * least &&
+        deviation_.largest() <= kMostFarther * largest + least) {
+      return moved;
+    }
+    put_back(start);
+    return 0;
+  }
+
   /// Moves vertices of crossing faces off each other, unless that takes some much farther off the
   /// surface: faces cross for good where the surface does.
   /// \return number of vertices moved
@@ -133,8 +159,7 @@ class Fit {
     places_.update_feet();
     measure();
     if (deviation_.largest() <= kPartedFarther * largest) return moved;
-    for (Index v = 0; v < system_.size(); ++v) places_.restore(v, start[v]);
-    measure();
+    put_back(start);
     return 0;
   }
 
@@ -192,6 +217,13 @@ class Fit {
       for (const Index v : {a, b, c}) area[v] += third;
     }
     return area;
+  }
+
+  /// Puts all vertices back, after their feet were found.
+  void put_back(const std::vector<VertexPlaces::State>& start) {
+    for (Index v = 0; v < system_.size(); ++v) places_.restore(v, start[v]);
+    places_.update_feet();
+    measure();
   }
 
   /// Puts vertices back where faces have got worse.
@@ -328,6 +360,7 @@ FitResult fit_vertices(const TriMesh& mesh, const PrincipalField* field, const Q
     going = fit.improve();
     observer.report("moving vertices", double(rounds + 1) / static_cast<double>(options.rounds));
   }
+  const Index evened = options.keep_flats || fit.is_tangled() ? 0 : fit.even_flats();
   const Index parted = fit.is_tangled() ? 0 : fit.part();
   fit.places().store(result.quads);
   double moved = 0;
@@ -344,6 +377,7 @@ FitResult fit_vertices(const TriMesh& mesh, const PrincipalField* field, const Q
   }
   begin_faces_at_fans(result.quads.mesh);
   result.quads.mesh.attributes = carry_attributes(mesh, result.quads.mesh, result.quads.provenance);
+  result.report.set("fit.evened_vertices", std::int64_t{evened});
   result.report.set("fit.parted_vertices", std::int64_t{parted});
   result.report.set("fit.divided_faces", std::int64_t{divided});
   result.report.set("fit.refilled_faces", std::int64_t{refilled});

@@ -11,6 +11,7 @@ namespace strake {
 
 struct FitOptions {
   std::int64_t rounds = 6;
+  bool keep_flats = false;  ///< leave vertices inside flats where lines meet
 
   OptionList declare();
 };
@@ -29,8 +30,9 @@ struct FitResult {
 /// worth as much as twelve times the present RMS distance, or 0.7 % of a cell. Vertices on
 /// feature and boundary lines slide along them, corners stay (vertex_places.h). A step is taken
 /// only where the sum falls, and leaves out vertices around which faces would become concave, thin,
-/// turned over, or cross others (face_guard.h). At the end faces that cross others are moved apart,
-/// divided, or made anew with those around (move_apart.h, divide_crossing.h, refill_crossing.h).
+/// turned over, or cross others (face_guard.h). Then vertices inside flats, which nothing holds,
+/// are spread evenly (even_flats.h). At the end faces that cross others are moved apart, divided,
+/// or made anew with those around (move_apart.h, divide_crossing.h, refill_crossing.h).
 /// \param field  nullptr: lines of edges only keep straight and even
 /// \pre `quads` was made from `mesh`, and so was `field`
 /// \return the same faces but for those; provenance with the new feet; the same for any number of

@@ -17,6 +17,9 @@ namespace {
 /// Radius of what counts as a needle whatever the tolerance, in smallest spacings.
 constexpr double kThickestNeedle = 5;
 
+/// Share of the vertices at the smallest distances everywhere that a count may ask for.
+constexpr double kMostOfSmallest = 0.9;
+
 /// Factor on the distances that curvature gives on needles, which are bent more tightly than the
 /// tolerance: less than three lines fit around them, so nothing shows how round they are, and
 /// lines at the distance for that would be thousands of rings. 1 elsewhere, and from there on.
@@ -132,6 +135,10 @@ std::pair<double, Spacing> SpacingModel::for_count(double count,
   constexpr double kAccuracy = 0.02;
   const double unit = size_ != nullptr ? 1e3 : mesh_.diagonal;
   const auto tolerance = [unit](double logarithm) { return unit * std::exp(logarithm); };
+  // On needles the smallest distances may give fewer; beyond those no factor would do anything.
+  double area = 0;
+  for (const double a : areas_) area += a;
+  count = std::min(count, kMostOfSmallest * area / std::pow(limits.smallest, 2));
   const double least = std::log(1e-9);
   const double largest = std::log(0.2);
   double low = least;

@@ -207,6 +207,8 @@ std::string Chain::run(Session& session) const {
   keep_ridges();
   const Option& sides = refine.option("refine-sides");
   if (sides.value().empty()) sides.parse_into(mesh.option("max-sides").value());
+  // Evenly is not how a density wants vertices in flats.
+  if (session.has("density")) fit.option("keep-flats").parse_into("true");
   session.hold_warnings_of(mesh);
   session.hold_warnings_of(decimate);  // of counts, which are told of at the end
   std::string port;

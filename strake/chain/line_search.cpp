@@ -10,6 +10,7 @@
 
 #include "common/core/error.h"
 #include "common/core/fields.h"
+#include "common/core/line_set.h"
 #include "common/core/poly_mesh.h"
 #include "common/core/tri_mesh.h"
 #include "strake/chain/count_search.h"
@@ -46,7 +47,32 @@ constexpr double kWithinStripsAtLast = 0.5;
 /// Nodes that lines may have, and times the count, beyond which nobody needs cells to see that
 /// there are too many of them: on needles and spikes thousands come at once.
 constexpr std::int64_t kManyNodes = 20000;
-constexpr std::int64_t kFarTooMany = 30;
+constexpr std::int64_t kFarTooMany = 10;
+
+/// Times that lines which are far too many are traced at larger distances before there are cells.
+constexpr int kMostThinnings = 4;
+
+/// Nodes of the present lines where they are far too many for the count; otherwise nothing.
+std::optional<std::int64_t> far_too_many(const Session& session, const LineAim& aim) {
+  const std::int64_t nodes =
+      most_nodes(session.get<TriMesh>("mesh"), session.get<LineSet>("lines"));
+  if (nodes <= std::max(kManyNodes, kFarTooMany * aim.count)) return std::nullopt;
+  return nodes;
+}
+
+/// Traces and makes cells anew, at larger distances where lines are far too many: expected vertices
+/// say nothing on spikes, around which each line goes on and on.
+void trace_and_mesh_for(Session& session, const GoalStages& stages, const LineAim& aim) {
+  trace_anew(session, stages);
+  for (int round = 0; round < kMostThinnings; ++round) {
+    const std::optional<std::int64_t> nodes = far_too_many(session, aim);
+    if (!nodes) break;
+    const double excess = static_cast<double>(*nodes) / static_cast<double>(aim.count);
+    scale_lines(stages, line_scale(stages) * std::sqrt(excess));
+    trace_anew(session, stages);
+  }
+  session.run(stages.mesh);
+}
 
 DensityMatch match_density(const Session& session, const GoalStages& stages) {
   Session plain = session;
@@ -154,9 +180,9 @@ bool search_scale(Session& session, const GoalStages& stages, const LineAim& aim
     option.parse_into(fmt::format("{}", *scale));
     try {
       trace_anew(session, stages);
-      const std::int64_t nodes = best ? most_nodes(session) : 0;
-      if (nodes > std::max(kManyNodes, kFarTooMany * aim.count)) {
-        search.record(*scale, nodes);
+      const std::optional<std::int64_t> nodes = far_too_many(session, aim);
+      if (best && nodes) {
+        search.record(*scale, *nodes);
         continue;
       }
       session.run(stages.mesh);
@@ -202,7 +228,7 @@ bool find_lines(Session& session, const GoalStages& stages, const LineAim& aim,
     return false;
   }
   for (std::int64_t round = 0; round < feedback_rounds.value_or(kFeedbackRounds); ++round) {
-    trace_and_mesh(session, stages);
+    trace_and_mesh_for(session, stages, aim);
     feed_back(session, stages, aim);
   }
   return search_scale(session, stages, aim);

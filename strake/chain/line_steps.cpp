@@ -75,9 +75,7 @@ void trace_and_mesh(Session& session, const GoalStages& stages) {
   session.run(stages.mesh);
 }
 
-std::int64_t most_nodes(const Session& session) {
-  const auto& lines = session.get<LineSet>("lines");
-  const auto& mesh = session.get<TriMesh>("mesh");
+std::int64_t most_nodes(const TriMesh& mesh, const LineSet& lines) {
   std::vector<std::array<std::int64_t, 2>> chords(mesh.face_count());
   std::int64_t count = 0;
   for (std::size_t i = 0; i < lines.points.size(); ++i) {
@@ -87,8 +85,12 @@ std::int64_t most_nodes(const Session& session) {
     if (lines.chord_face[i] == kNone) continue;
     ++chords[lines.chord_face[i]][family == LineFamily::minimum ? 0 : 1];
   }
-  for (const auto& [along, across] : chords) count += along * across;
-  return count;
+  std::int64_t fullest = 0;
+  for (const auto& [along, across] : chords) {
+    count += along * across;
+    fullest = std::max({fullest, along, across});
+  }
+  return std::max(count, fullest);
 }
 
 void mesh_with_strips(Session& session, const GoalStages& stages, const LineAim& aim) {

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "common/core/line_set.h"
+#include "common/core/tri_mesh.h"
 #include "common/core/types.h"
 #include "strake/chain/goal_stages.h"
 #include "strake/chain/line_aim.h"
@@ -22,10 +24,11 @@ void trace_and_mesh(Session& session, const GoalStages& stages);
 /// Traces and makes cells anew, and fits and keeps the result: "fitted".
 void trace_mesh_and_fit(Session& session, const GoalStages& stages);
 
-/// Nodes that the present lines have at most, unless lines of one family cross each other: where
-/// they cross feature and boundary lines, and in each face the chords of one family times those of
-/// the other.
-std::int64_t most_nodes(const Session& session);
+/// Nodes that lines have at most, unless lines of one family cross each other: where they cross
+/// feature and boundary lines, and in each face the chords of one family times those of the other.
+/// Where one face has more chords of a family than that, their number: lines that wind around a
+/// spike cross nothing, but take as long.
+std::int64_t most_nodes(const TriMesh& mesh, const LineSet& lines);
 
 /// Makes cells of the present lines anew, with strips of quads split or taken out for the count.
 void mesh_with_strips(Session& session, const GoalStages& stages, const LineAim& aim);

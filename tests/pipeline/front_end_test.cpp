@@ -264,6 +264,23 @@ TEST_F(FrontEnd, SaysHowFarADensityIsFollowed) {
   EXPECT_EQ(say("1\n").find("warning: the density"), std::string::npos);
 }
 
+/// A density says where vertices are to lie in a flat, whether it differs or not.
+TEST_F(FrontEnd, FlatsAreSpreadEvenlyButForADensity) {
+  must("strake sample plane -o plane.ply --faces 2000");
+  std::string text = "ply\nformat ascii 1.0\nelement vertex ";
+  const std::size_t count = read("plane.ply").positions.size();
+  text += std::to_string(count) + "\nproperty float density\nend_header\n";
+  for (std::size_t v = 0; v < count; ++v) text += v % 2 == 0 ? "1\n" : "1.5\n";
+  put("density.ply", text);
+  const std::string flags = "strake remesh plane.ply -q --no-evaluate --vertices 200 ";
+  must(flags + "-o even.obj");
+  must(flags + "--keep-flats -o kept.obj");
+  EXPECT_NE(bytes("even.obj"), bytes("kept.obj"));
+  must(flags + "--density density.ply -o dense.obj");
+  must(flags + "--density density.ply --keep-flats -o dense-kept.obj");
+  EXPECT_EQ(bytes("dense.obj"), bytes("dense-kept.obj"));
+}
+
 /// Guides by the real programs; what they do to the result is a test of the stage smooth.
 TEST_F(FrontEnd, FollowsGuides) {
   put("guides.obj", "v 1.4 0 0\nv 1.34 0.2 0.2\nv 1.2 0.3 0.32\nl 1 2 3\n");

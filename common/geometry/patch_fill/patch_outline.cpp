@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <map>
-#include <set>
 #include <utility>
 
 namespace strake {
@@ -12,14 +10,25 @@ namespace {
 using IsEdge = std::function<bool(Index, Index)>;
 using Ring = std::vector<Index>;
 
-/// Goes around all outlines. \param next  the vertex after each
-std::vector<Ring> rings_of(std::map<Index, Index> next) {
+/// An edge in the sense of a face to its left.
+using Side = std::pair<Index, Index>;
+
+/// Goes around all outlines, beginning at the least vertex of each.
+/// \param outline  ascending, one from each vertex
+std::vector<Ring> rings_of(const std::vector<Side>& outline) {
   std::vector<Ring> rings;
-  while (!next.empty()) {
+  std::vector<bool> is_done(outline.size(), false);
+  const auto side_from = [&](Index vertex) {
+    const auto at = std::ranges::lower_bound(outline, vertex, {}, &Side::first);
+    const bool is_there = at != outline.end() && at->first == vertex;
+    return is_there ? static_cast<std::size_t>(at - outline.begin()) : outline.size();
+  };
+  for (std::size_t first = 0; first < outline.size(); ++first) {
+    if (is_done[first]) continue;
     Ring ring;
-    for (auto at = next.begin(); at != next.end(); at = next.find(ring.back())) {
-      ring.push_back(at->second);
-      next.erase(at);
+    for (std::size_t i = first; i < outline.size() && !is_done[i]; i = side_from(ring.back())) {
+      ring.push_back(outline[i].second);
+      is_done[i] = true;
     }
     std::rotate(ring.begin(), std::prev(ring.end()), ring.end());
     rings.push_back(std::move(ring));
@@ -68,24 +77,32 @@ bool PatchOutline::is_like(const PatchOutline& other) const {
 
 PatchOutline patch_outline(std::span<const std::vector<Index>> faces, const IsEdge& is_wall,
                            const IsEdge& is_boundary) {
-  std::set<std::pair<Index, Index>> sides;
+  std::vector<Side> sides;
   for (const std::vector<Index>& face : faces) {
     for (std::size_t i = 0; i < face.size(); ++i) {
-      sides.emplace(face[i], face[(i + 1) % face.size()]);
+      sides.emplace_back(face[i], face[(i + 1) % face.size()]);
     }
   }
+  std::sort(sides.begin(), sides.end());
+  sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
   PatchOutline outline;
-  std::set<Index> vertices;
-  std::map<Index, Index> next;
-  for (const auto& [a, b] : sides) {
-    vertices.insert(a);
-    if (sides.contains({b, a}) && !(is_wall && is_wall(a, b))) continue;
-    if (!next.emplace(a, b).second) outline.pinched.push_back(a);
+  std::size_t vertices = 0;
+  std::vector<Side> around;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const auto& [a, b] = sides[i];
+    vertices += i == 0 || sides[i - 1].first != a ? 1 : 0;
+    const bool has_both = std::binary_search(sides.begin(), sides.end(), Side{b, a});
+    if (has_both && !(is_wall && is_wall(a, b))) continue;
+    if (!around.empty() && around.back().first == a) {
+      outline.pinched.push_back(a);
+    } else {
+      around.emplace_back(a, b);
+    }
   }
   if (!outline.pinched.empty()) return outline;
-  const std::size_t edges = (sides.size() + next.size()) / 2;  // inner ones have two sides
-  outline.euler = static_cast<Index>(vertices.size() + faces.size()) - static_cast<Index>(edges);
-  const std::vector<Ring> rings = rings_of(std::move(next));
+  const std::size_t edges = (sides.size() + around.size()) / 2;  // inner ones have two sides
+  outline.euler = static_cast<Index>(vertices + faces.size()) - static_cast<Index>(edges);
+  const std::vector<Ring> rings = rings_of(around);
   outline.loops = static_cast<Index>(rings.size());
   for (const Ring& ring : rings) add_paths(ring, is_boundary, outline);
   return outline;

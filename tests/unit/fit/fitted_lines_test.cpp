@@ -224,7 +224,7 @@ double angle_at_joint(const Sheet& sheet) {
 TEST(Fit, BendsTJointsOutOfQuadsWhereDirectionsMeanLittle) {
   const double flat = angle_at_joint({3, 0});
   EXPECT_LT(flat, 160);
-  EXPECT_GT(flat, 130);
+  EXPECT_GT(flat, 100);
   EXPECT_GT(angle_at_joint({3, 0.2}), 170);  // across a cylinder, so much finer than it is bent
 }
 

@@ -290,8 +290,7 @@ TEST(PredictedVertices, IsTheAreaInCells) {
   EXPECT_NEAR(predicted_vertices(wedge_areas(mesh), spacing), area / (0.04 * 0.1), 1e-6);
 }
 
-TEST(SpacingForCount, ToleranceFallsWithTheCountAndPredictsIt) {
-  const TriMesh mesh = sample_mesh(SampleKind::torus, 4000);
+PrincipalField field_of_torus(const TriMesh& mesh) {
   PrincipalField field = field_along(mesh, [](const Vec3& p) { return Vec3(-p.y(), p.x(), 0); });
   for (Index w = 0; w < mesh.wedge_count(); ++w) {
     const Vec3& p = mesh.positions[mesh.wedge_vertex[w]];
@@ -299,6 +298,12 @@ TEST(SpacingForCount, ToleranceFallsWithTheCountAndPredictsIt) {
     field.k_max[w] = 1 / kTorusMinorRadius;
     field.k_min[w] = (rho - kTorusMajorRadius) / (kTorusMinorRadius * rho);
   }
+  return field;
+}
+
+TEST(SpacingForCount, ToleranceFallsWithTheCountAndPredictsIt) {
+  const TriMesh mesh = sample_mesh(SampleKind::torus, 4000);
+  const PrincipalField field = field_of_torus(mesh);
   const SpacingModel model(mesh, field);
   SpacingLimits limits;
   limits.smallest = 1e-4 * mesh.diagonal;
@@ -313,6 +318,22 @@ TEST(SpacingForCount, ToleranceFallsWithTheCountAndPredictsIt) {
     EXPECT_EQ(spacing.along, again.along);
     EXPECT_EQ(spacing.across, again.across);
   }
+}
+
+// As on a needle, which has less area than its length suggests.
+TEST(SpacingForCount, ACountThatTheSmallestDistancesDoNotGiveLeavesThemAFactor) {
+  const TriMesh mesh = sample_mesh(SampleKind::torus, 4000);
+  const PrincipalField field = field_of_torus(mesh);
+  const SpacingModel model(mesh, field);
+  SpacingLimits limits;
+  limits.smallest = 0.1 * mesh.diagonal;
+  limits.largest = 0.5 * mesh.diagonal;
+  const auto [tolerance, spacing] = model.for_count(1e5, limits);
+  const double vertices = predicted_vertices(model.areas(), spacing);
+  EXPECT_LT(vertices, 1e3);
+  limits.scale = 2;
+  const Spacing doubled = model.for_tolerance(tolerance, limits);
+  EXPECT_LT(predicted_vertices(model.areas(), doubled), 0.6 * vertices);  // all of them before
 }
 
 }  // namespace
