@@ -11,7 +11,6 @@
 #include <span>
 #include <vector>
 
-#include "common/geometry/angles.h"
 #include "common/geometry/poly_topology/vertex_faces.h"
 
 namespace strake::fitting {
