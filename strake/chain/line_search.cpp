@@ -48,16 +48,19 @@ constexpr double kWithinStripsAtLast = 0.5;
 /// there are too many of them: on needles and spikes thousands come at once.
 constexpr std::int64_t kManyNodes = 20000;
 constexpr std::int64_t kFarTooMany = 10;
-
+/// Likewise the chords of one family in one face, where these are more than the count.
+constexpr std::int64_t kManyChords = 2000;
 /// Times that lines which are far too many are traced at larger distances before there are cells.
 constexpr int kMostThinnings = 4;
 
-/// Nodes of the present lines where they are far too many for the count; otherwise nothing.
+/// Of lines that are far too many for the count, the vertices to take them for; otherwise nothing.
 std::optional<std::int64_t> far_too_many(const Session& session, const LineAim& aim) {
-  const std::int64_t nodes =
-      most_nodes(session.get<TriMesh>("mesh"), session.get<LineSet>("lines"));
-  if (nodes <= std::max(kManyNodes, kFarTooMany * aim.count)) return std::nullopt;
-  return nodes;
+  const LineLoad load = load_of(session.get<TriMesh>("mesh"), session.get<LineSet>("lines"));
+  if (load.nodes <= std::max(kManyNodes, kFarTooMany * aim.count) &&
+      load.fullest_face <= std::max(kManyChords, aim.count)) {
+    return std::nullopt;
+  }
+  return std::max(load.nodes, load.fullest_face);
 }
 
 /// Traces and makes cells anew, at larger distances where lines are far too many: expected vertices
@@ -65,9 +68,9 @@ std::optional<std::int64_t> far_too_many(const Session& session, const LineAim& 
 void trace_and_mesh_for(Session& session, const GoalStages& stages, const LineAim& aim) {
   trace_anew(session, stages);
   for (int round = 0; round < kMostThinnings; ++round) {
-    const std::optional<std::int64_t> nodes = far_too_many(session, aim);
-    if (!nodes) break;
-    const double excess = static_cast<double>(*nodes) / static_cast<double>(aim.count);
+    const std::optional<std::int64_t> vertices = far_too_many(session, aim);
+    if (!vertices) break;
+    const double excess = static_cast<double>(*vertices) / static_cast<double>(aim.count);
     scale_lines(stages, line_scale(stages) * std::sqrt(excess));
     trace_anew(session, stages);
   }
@@ -180,9 +183,8 @@ bool search_scale(Session& session, const GoalStages& stages, const LineAim& aim
     option.parse_into(fmt::format("{}", *scale));
     try {
       trace_anew(session, stages);
-      const std::optional<std::int64_t> nodes = far_too_many(session, aim);
-      if (best && nodes) {
-        search.record(*scale, *nodes);
+      if (const std::optional<std::int64_t> vertices = far_too_many(session, aim)) {
+        search.record(*scale, *vertices);
         continue;
       }
       session.run(stages.mesh);
@@ -208,6 +210,10 @@ bool search_scale(Session& session, const GoalStages& stages, const LineAim& aim
         static_cast<double>(count) >= kLeastToDivide * static_cast<double>(aim.count);
     if (can_be_divided && (!below || count > below->count))
       below = {session, *scale, count, has_strips};
+  }
+  if (!best) {  // all are far too many, so it cannot be helped
+    session.run(stages.mesh);
+    best = {session, line_scale(stages), count_of(session, "quads", aim.counted), false};
   }
   const bool is_missed = search.error(best->count) > kCountTolerance;
   const Found& chosen = is_missed && below && goes_by_errors(session, stages) ? *below : *best;

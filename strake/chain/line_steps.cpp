@@ -75,22 +75,21 @@ void trace_and_mesh(Session& session, const GoalStages& stages) {
   session.run(stages.mesh);
 }
 
-std::int64_t most_nodes(const TriMesh& mesh, const LineSet& lines) {
+LineLoad load_of(const TriMesh& mesh, const LineSet& lines) {
+  LineLoad load;
   std::vector<std::array<std::int64_t, 2>> chords(mesh.face_count());
-  std::int64_t count = 0;
   for (std::size_t i = 0; i < lines.points.size(); ++i) {
     const LineFamily family = lines.chord_family[i];
     if (family != LineFamily::minimum && family != LineFamily::maximum) continue;
-    if (mesh.is_barrier(lines.points[i].halfedge)) ++count;
+    if (mesh.is_barrier(lines.points[i].halfedge)) ++load.nodes;
     if (lines.chord_face[i] == kNone) continue;
     ++chords[lines.chord_face[i]][family == LineFamily::minimum ? 0 : 1];
   }
-  std::int64_t fullest = 0;
   for (const auto& [along, across] : chords) {
-    count += along * across;
-    fullest = std::max({fullest, along, across});
+    load.nodes += along * across;
+    load.fullest_face = std::max({load.fullest_face, along, across});
   }
-  return std::max(count, fullest);
+  return load;
 }
 
 void mesh_with_strips(Session& session, const GoalStages& stages, const LineAim& aim) {

@@ -24,11 +24,16 @@ void trace_and_mesh(Session& session, const GoalStages& stages);
 /// Traces and makes cells anew, and fits and keeps the result: "fitted".
 void trace_mesh_and_fit(Session& session, const GoalStages& stages);
 
-/// Nodes that lines have at most, unless lines of one family cross each other: where they cross
-/// feature and boundary lines, and in each face the chords of one family times those of the other.
-/// Where one face has more chords of a family than that, their number: lines that wind around a
-/// spike cross nothing, but take as long.
-std::int64_t most_nodes(const TriMesh& mesh, const LineSet& lines);
+/// How much work it is to make cells of lines.
+struct LineLoad {
+  /// Nodes that they have at most, unless lines of one family cross each other: where they cross
+  /// feature and boundary lines, and in each face the chords of one family times those of the
+  /// other.
+  std::int64_t nodes = 0;
+  /// Chords of one family in the face that has most: lines that wind around a spike cross nothing.
+  std::int64_t fullest_face = 0;
+};
+LineLoad load_of(const TriMesh& mesh, const LineSet& lines);
 
 /// Makes cells of the present lines anew, with strips of quads split or taken out for the count.
 void mesh_with_strips(Session& session, const GoalStages& stages, const LineAim& aim);

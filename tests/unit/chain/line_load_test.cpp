@@ -10,9 +10,9 @@
 namespace strake {
 namespace {
 
-class MostNodes : public ::testing::Test {
+class LoadOfLines : public ::testing::Test {
  protected:
-  MostNodes() {
+  LoadOfLines() {
     PolyMesh triangle;
     triangle.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
     triangle.add_face(std::array<Index, 3>{0, 1, 2});
@@ -32,20 +32,22 @@ class MostNodes : public ::testing::Test {
   LineSet lines_;
 };
 
-TEST_F(MostNodes, AreEndsOnTheBoundaryAndPairsOfBothFamilies) {
+TEST_F(LoadOfLines, IsEndsOnTheBoundaryAndPairsOfBothFamilies) {
   for (int i = 1; i <= 3; ++i) add_chord(LineFamily::minimum, 0, i / 8.0);
   for (int i = 1; i <= 5; ++i) add_chord(LineFamily::maximum, 1, i / 8.0);
-  EXPECT_EQ(most_nodes(mesh_, lines_), 2 * (3 + 5) + 3 * 5);
+  EXPECT_EQ(load_of(mesh_, lines_).nodes, 2 * (3 + 5) + 3 * 5);
+  EXPECT_EQ(load_of(mesh_, lines_).fullest_face, 5);
 }
 
-TEST_F(MostNodes, FeatureAndBoundaryLinesHaveNone) {
+TEST_F(LoadOfLines, FeatureAndBoundaryLinesAreNone) {
   add_chord(LineFamily::boundary, 0, 0.5);
   add_chord(LineFamily::feature, 1, 0.5);
-  EXPECT_EQ(most_nodes(mesh_, lines_), 0);
+  EXPECT_EQ(load_of(mesh_, lines_).nodes, 0);
+  EXPECT_EQ(load_of(mesh_, lines_).fullest_face, 0);
 }
 
 // As around a spike, where lines go through its few faces again and again, and end nowhere.
-TEST_F(MostNodes, AreTheChordsOfOneFamilyWhereTheseAreMore) {
+TEST_F(LoadOfLines, IsChordsOfOneFamilyThatCrossNothingToo) {
   for (int i = 0; i < 100; ++i) {
     lines_.points.push_back({0, 0.5});
     lines_.chord_face.push_back(0);
@@ -53,7 +55,8 @@ TEST_F(MostNodes, AreTheChordsOfOneFamilyWhereTheseAreMore) {
   }
   lines_.offsets.push_back(100);
   mesh_.twin[0] = 0;  // no boundary
-  EXPECT_EQ(most_nodes(mesh_, lines_), 100);
+  EXPECT_EQ(load_of(mesh_, lines_).nodes, 0);
+  EXPECT_EQ(load_of(mesh_, lines_).fullest_face, 100);
 }
 
 }  // namespace
