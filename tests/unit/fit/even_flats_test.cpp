@@ -9,6 +9,7 @@
 #include <functional>
 #include <vector>
 
+#include "common/core/fields.h"
 #include "common/geometry/poly_topology/face_shape.h"
 #include "common/geometry/surface_distance/surface_distance.h"
 #include "stages/fit/vertex_places.h"
@@ -132,6 +133,36 @@ TEST(EvenFlats, LeaveWhatIsAroundAVertexOffThePlane) {
       EXPECT_EQ(places.positions()[v], quads.mesh.positions[v] - mesh.origin);
     }
   }
+}
+
+/// The largest turn of an edge of the grid's upright lines away from the y axis, radians.
+double largest_lean(const std::vector<Vec3>& positions) {
+  double largest = 0;
+  for (Index v = 0; v + kSides + 1 < static_cast<Index>(positions.size()); ++v) {
+    const Vec3 edge = positions[v + kSides + 1] - positions[v];
+    largest = std::max(largest, std::atan2(std::abs(edge.x()), edge.y()));
+  }
+  return largest;
+}
+
+// The upper side of the square is divided unevenly. Lines have to lean on their way there: near it
+// where only evenness counts, all the way and so less where they belong to a field.
+TEST(EvenFlats, KeepLinesAlongTheField) {
+  const TriMesh mesh = surface_of(grid([](double x, double y) { return Vec3(x, y, 0); }));
+  const QuadMesh quads = fit_cases::placed_on(
+      mesh,
+      grid([](double x, double y) { return Vec3(x - (y == 1 ? 0.15 * x * (1 - x) : 0), y, 0); }));
+  PrincipalField field;
+  field.mesh_id = mesh.id;
+  field.normal.assign(mesh.wedge_count(), Vec3(0, 0, 1));
+  field.cross.assign(mesh.wedge_count(), Vec3(1, 0, 0));
+  const SurfaceDistance distance(mesh.positions, mesh.faces);
+  const auto lean = [&](const PrincipalField* along) {
+    fitting::VertexPlaces places(mesh, distance, quads, &field);
+    fitting::even_flats(quads.mesh, along, kOff, places);
+    return largest_lean(places.positions());
+  };
+  EXPECT_LT(lean(&field), 0.75 * lean(nullptr));
 }
 
 // Inside an arrowhead the middle of the four corners lies outside.
