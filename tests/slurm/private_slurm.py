@@ -23,7 +23,7 @@ import time
 
 PR_SET_PDEATHSIG = 1
 PR_SET_CHILD_SUBREAPER = 36
-START_SECONDS = 20
+START_SECONDS = 60
 
 CONF = """\
 ClusterName=private
@@ -44,7 +44,8 @@ SelectTypeParameters=CR_Core_Memory
 SchedulerParameters=bf_interval=1,sched_interval=1
 SlurmdParameters=config_overrides
 ReturnToService=2
-SlurmdTimeout=10
+# A node that is only slow, on a busy machine, is not taken for dead.
+SlurmdTimeout=300
 KillWait=2
 MinJobAge=300
 DefMemPerCPU=500
