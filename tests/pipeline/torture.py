@@ -16,7 +16,7 @@ import tempfile
 import time
 
 from torture_remesh import killed, no_place, starved
-from torture_support import SEED, check, mount
+from torture_support import PATIENCE_SECONDS, SEED, check, mount
 
 PIPELINE = """version: 1
 store: {store}
@@ -49,7 +49,7 @@ class Place:
     def call(self, *arguments):
         """Exit code and all that was said."""
         process = self.start(*arguments)
-        out, err = process.communicate(timeout=60)
+        out, err = process.communicate(timeout=PATIENCE_SECONDS)
         return process.returncode, out + err
 
     def must_run(self, *arguments):
@@ -116,7 +116,7 @@ def kind(words):
 
 
 def check_nothing_left(what):
-    deadline = time.monotonic() + 2
+    deadline = time.monotonic() + 10
     while left := processes():
         check(time.monotonic() < deadline, what, "left behind", left)
         time.sleep(0.01)
@@ -170,7 +170,7 @@ def kills(programs, folder):
                 os.kill(victim, signal.SIGKILL)
             except ProcessLookupError:
                 pass
-        out, err = run.communicate(timeout=30)
+        out, err = run.communicate(timeout=PATIENCE_SECONDS)
         check_nothing_left(f"after a kill of {target}" if targets else "after a run")
         if run.returncode != 0:
             interrupted += "step" in kinds
@@ -194,7 +194,7 @@ def interrupt_starts(programs, folder):
         while not (begun := children.read_text().split()):
             check(run.poll() is None, "the run started nothing")
         os.kill(int(begun[0]), signal.SIGINT)
-        out, err = run.communicate(timeout=30)
+        out, err = run.communicate(timeout=PATIENCE_SECONDS)
         check(run.returncode != 0, "an interruption was swallowed:", out)
         check_nothing_left("after an early interruption")
 
@@ -214,7 +214,7 @@ def interrupts(programs, folder):
             os.kill(run.pid, signal.SIGTERM)
         else:
             os.killpg(run.pid, signal.SIGINT)
-        out, err = run.communicate(timeout=30)
+        out, err = run.communicate(timeout=PATIENCE_SECONDS)
         slowest = max(slowest, time.monotonic() - begin)
         check_nothing_left("after an interruption")
         if run.returncode == 0:
@@ -232,7 +232,7 @@ def interrupts(programs, folder):
     interrupt_starts(programs, folder)
     print(f"{stopped} of 16 interrupted, the slowest after {slowest:.2f} s")
     check(stopped >= 10, "too few were interrupted:", stopped)
-    check(slowest < 2 + whole, "an interruption took", slowest, "s, a whole run", whole, "s")
+    check(slowest < 10 + whole, "an interruption took", slowest, "s, a whole run", whole, "s")
 
 
 def together(programs, folder):
@@ -244,7 +244,7 @@ def together(programs, folder):
         runs = [place.start("run") for place in places]
         ran = 0
         for run, place in zip(runs, places):
-            out, err = run.communicate(timeout=60)
+            out, err = run.communicate(timeout=PATIENCE_SECONDS)
             check(run.returncode == 0, err)
             ran += out.count("  ran  ")
             check(place.outputs() == outputs, "other outputs")

@@ -6,7 +6,7 @@ import resource
 import subprocess
 import time
 
-from torture_support import SEED, check, mount
+from torture_support import PATIENCE_SECONDS, SEED, check, mount
 
 
 class Remesh:
@@ -37,7 +37,7 @@ class Remesh:
     def fails(self, limits, codes, *parts):
         """Fails with one of the codes and all parts in its message, and leaves nothing."""
         run = self.start(limits)
-        said = run.communicate(timeout=60)[1]
+        said = run.communicate(timeout=PATIENCE_SECONDS)[1]
         check(run.returncode in codes, limits, run.returncode, said)
         for part in parts:
             check(part in said, limits, "is not told:", said)
@@ -59,7 +59,7 @@ def starved(programs, folder):
     ends = 0
     for most in range(loads, 10000, 8):
         run = remesh.start([(resource.RLIMIT_AS, most * megabytes)])
-        said = run.communicate(timeout=60)[1]
+        said = run.communicate(timeout=PATIENCE_SECONDS)[1]
         if run.returncode == 0:
             break
         check(run.returncode == 1 and "out of memory" in said, most, "MB:", run.returncode, said)
@@ -74,7 +74,7 @@ def killed(programs, folder):
     remesh = Remesh(programs, folder)
     run = remesh.start()
     begin = time.monotonic()
-    run.communicate(timeout=60)
+    run.communicate(timeout=PATIENCE_SECONDS)
     whole = time.monotonic() - begin
     made = remesh.output.read_bytes()
     choice = random.Random(SEED)

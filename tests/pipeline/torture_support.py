@@ -3,6 +3,7 @@
 import subprocess
 
 SEED = 20041007
+PATIENCE_SECONDS = 200  # for what takes one, beside other tests
 
 
 def check(condition, *what):
