@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <string>
+#include <utility>
 
 #include "common/geometry/angles.h"
 #include "stages/evaluate/statistics.h"
@@ -18,6 +20,9 @@ namespace {
 constexpr double kOnEdge = 1e-7;      // barycentric; nearer than this to an edge is on it
 constexpr double kSamePlace = 1e-10;  // of the diagonal; distances that differ by less are equal
 constexpr std::int64_t kBatch = 1 << 16;  // between two reports of progress
+constexpr std::size_t kClimbs = 32;       // triangles in which the farthest place is looked for
+constexpr double kClimbedTo = 1e-3;       // of the distance between samples
+constexpr double kNoFarther = 1e-6;       // as a share
 
 const Vec3& position_of(const SurfaceSample& sample) { return sample.position; }
 const Vec3& position_of(const Vec3& place) { return place; }
@@ -77,6 +82,62 @@ double normal_deviation(const SurfaceSample& sample, const MeasuredSurface& to,
   return least;
 }
 
+/// Samples with the largest distances, the largest first, one of a triangle.
+std::vector<SurfaceSample> farthest_samples(const MeasuredSurface& from,
+                                            const std::vector<double>& distance) {
+  std::vector<std::int64_t> order(distance.size());
+  std::iota(order.begin(), order.end(), 0);
+  const std::size_t looked_at = std::min(order.size(), 8 * kClimbs);
+  std::ranges::partial_sort(order, order.begin() + static_cast<std::ptrdiff_t>(looked_at), {},
+                            [&](std::int64_t i) { return std::pair(-distance[i], i); });
+  std::vector<SurfaceSample> farthest;
+  for (std::size_t k = 0; k < looked_at && farthest.size() < kClimbs; ++k) {
+    const SurfaceSample sample = from.sample(order[k], static_cast<std::int64_t>(distance.size()));
+    const bool is_first =
+        std::ranges::find(farthest, sample.triangle, &SurfaceSample::triangle) == farthest.end();
+    if (is_first) farthest.push_back(sample);
+  }
+  return farthest;
+}
+
+/// Goes from a sample, within its triangle, to where the distance is largest: to the best of eight
+/// places around, nearer and nearer ones.
+/// \param step  to the first places, model units
+Farthest climb(const SurfaceDistance& from, const SurfaceDistance& to, const SurfaceSample& start,
+               double step) {
+  const auto& [a, b, c] = from.triangles()[start.triangle];
+  const std::vector<Vec3>& p = from.positions();
+  const Vec3 x = (p[b] - p[a]).normalized();
+  const Vec3 y = start.normal.cross(x);
+  ClosestPoint foot = to.closest(start.position);
+  Farthest best{foot.distance, start.position};
+  for (const double least = kClimbedTo * step; step > least;) {
+    const Farthest before = best;
+    for (int turn = 0; turn < 8; ++turn) {
+      const double angle = turn * std::numbers::pi / 4;
+      const Vec3 aim = before.place + step * (std::cos(angle) * x + std::sin(angle) * y);
+      const auto& weights = closest_point_on_triangle(aim, p[a], p[b], p[c]).barycentric;
+      const Vec3 place = weights[0] * p[a] + weights[1] * p[b] + weights[2] * p[c];
+      foot = to.closest_near(place, foot.triangle);
+      if (foot.distance > best.distance) best = {foot.distance, place};
+    }
+    if (best.distance <= (1 + kNoFarther) * before.distance) step /= 2;
+  }
+  return best;
+}
+
+/// The largest distance near the samples that have the largest.
+Farthest beyond_samples(const MeasuredSurface& from, const MeasuredSurface& to,
+                        const std::vector<double>& distance) {
+  const std::vector<SurfaceSample> starts = farthest_samples(from, distance);
+  const double step = std::sqrt(from.area() / static_cast<double>(distance.size()));
+  std::vector<Farthest> found(starts.size());
+  tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
+    found[i] = climb(from.distance(), to.distance(), starts[i], step);
+  });
+  return *std::ranges::max_element(found, {}, &Farthest::distance);
+}
+
 OneWay measure(const SurfaceWithVertices& from, const MeasuredSurface& to, double diagonal,
                std::int64_t samples, const char* phase, Observer& observer) {
   std::vector<double> distance(static_cast<std::size_t>(samples));
@@ -97,13 +158,10 @@ OneWay measure(const SurfaceWithVertices& from, const MeasuredSurface& to, doubl
   OneWay result;
   result.mean = mean(distance);
   result.rms = rms(distance);
-  const auto of_samples = std::ranges::max_element(distance);
+  result.farthest = beyond_samples(from.surface, to, distance);
   const auto of_vertices = std::ranges::max_element(at_vertex);
-  if (of_vertices != at_vertex.end() && *of_vertices >= *of_samples) {
+  if (of_vertices != at_vertex.end() && *of_vertices >= result.farthest.distance) {
     result.farthest = {*of_vertices, from.vertices[of_vertices - at_vertex.begin()]};
-  } else {
-    const std::int64_t i = of_samples - distance.begin();
-    result.farthest = {*of_samples, from.surface.sample(i, samples).position};
   }
   result.normal_mean = mean(angle);
   result.normal_rms = rms(angle);

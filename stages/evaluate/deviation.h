@@ -24,10 +24,11 @@ struct Farthest {
 /// Reports "distance.*" and "normals.*": how far apart two surfaces are, both ways.
 ///
 /// From each surface `samples` area-weighted places are taken to their nearest point on the other.
-/// RMS and mean are over these; the maximum is over all vertices too. A normal's deviation is the
-/// angle between the triangles' normals at a sample and at its nearest point; on an edge or vertex
-/// the nearest of the normals there. The combined RMS is the root of the mean of both squares, the
-/// combined mean the mean of both.
+/// RMS and mean are over these; the maximum is over all vertices too, and over what is still
+/// farther near the farthest places. A normal's deviation is the angle between the triangles'
+/// normals at a sample and at its nearest point; on an edge or vertex the nearest of the normals
+/// there. The combined RMS is the root of the mean of both squares, the combined mean the mean of
+/// both.
 /// \param samples  positive
 /// \return the largest distance of both ways
 Farthest report_deviation(const SurfaceWithVertices& reference,

@@ -127,6 +127,27 @@ TEST(Evaluate, CubesInsideEachOther) {
   EXPECT_NEAR(number(report, "distance.rms"), std::sqrt((square + h * h) / 2), 0.002 * h);
 }
 
+// Above a pit in the form of a pyramid the middle of its widest sphere is farthest: on no vertex,
+// and on a ridge, to which few samples come near.
+TEST(Evaluate, TheLargestDistanceLiesBetweenVertices) {
+  PolyMesh lid;
+  for (const double y : {-1.0, 1.0}) {
+    for (const double x : {-1.0, 1.0}) lid.positions.emplace_back(x, y, 0);
+  }
+  PolyMesh pit = lid;
+  lid.add_face(std::array<Index, 4>{0, 1, 3, 2});
+  const double apex = 0.3;
+  pit.positions.emplace_back(apex, 0, -1);
+  for (const auto& [a, b] : {std::pair{0, 1}, {1, 3}, {3, 2}, {2, 0}}) {
+    pit.add_face(std::array<Index, 3>{a, b, 4});
+  }
+  // To the sides at x = 1 and -1 it is (1 - x) / right and (1 + x) / left, to the others more.
+  const double right = std::hypot(1, 1 - apex);
+  const double left = std::hypot(1, 1 + apex);
+  const Report report = evaluated(shapes::reference(pit), lid, nullptr, 1000);
+  EXPECT_NEAR(number(report, "distance.to_reference.max"), 2 / (left + right), 1e-4);
+}
+
 // What nobody sees is not measured: neither from its vertices nor to it.
 TEST(Evaluate, FacesWithoutAreaAreNoSurface) {
   const PolyMesh square = shapes::square(3, 0);
