@@ -1,12 +1,30 @@
 #include "stages/mesh/face_arrangement.h"
 
 #include <algorithm>
+#include <bit>
 #include <string>
 
 #include "common/core/error.h"
 
 namespace strake {
 namespace {
+
+/// Chords from which on their order matters: those of one line that winds through a face come one
+/// beside the other, and each would walk all that is left of the outline.
+constexpr std::size_t kManyChords = 256;
+
+/// The numbers below `count`, each far from those just before it: by their bits, the last first.
+std::vector<std::size_t> scattered(std::size_t count) {
+  const auto bits = static_cast<int>(std::bit_width(count));
+  std::vector<std::size_t> order;
+  order.reserve(count);
+  for (std::size_t i = 0; i < std::size_t{1} << bits; ++i) {
+    std::size_t turned = 0;
+    for (int bit = 0; bit < bits; ++bit) turned = 2 * turned + (i >> bit & 1);
+    if (turned < count) order.push_back(turned);
+  }
+  return order;
+}
 
 /// Parameter along a-b of its crossing with c-d, both in barycentric coordinates of a triangle.
 double crossing_parameter(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
@@ -65,11 +83,14 @@ void FaceArrangement::walk_outline(Index face, Index first) {
 
 void FaceArrangement::insert(Index face, Index first, const std::vector<Chord>& chords) {
   walk_outline(face, first);
+  ends_.clear();
   placed_.clear();
   first_edge_ = overlay_.graph.dart_count() / 2;
   chord_.clear();
-  for (std::size_t id = 0; id < chords.size(); ++id) {
-    insert_chord(face, chords[id], static_cast<Index>(id));
+  if (chords.size() < kManyChords) {
+    for (const Chord& chord : chords) insert_chord(face, chord);
+  } else {
+    for (const std::size_t i : scattered(chords.size())) insert_chord(face, chords[i]);
   }
 }
 
@@ -85,8 +106,7 @@ Index FaceArrangement::start_corner(const Chord& chord) const {
   for (Index d = graph.rotate_ccw(best);; d = graph.rotate_ccw(d)) {
     const Index id = chord_of(d);
     if (id == kNone) break;  // the outline again
-    const Placed& other = placed_[id];
-    const Index far = other.from_position == from ? other.to_position : other.from_position;
+    const Index far = ends_[id].from == from ? ends_[id].to : ends_[id].from;
     if (around(far) > wanted) break;
     best = d;
   }
@@ -120,23 +140,21 @@ Index FaceArrangement::cross(Index corner, Index dart, Index face, const Vec3& b
   return DartGraph::opposite(dart);
 }
 
-void FaceArrangement::insert_chord(Index face, const Chord& chord, Index id) {
+void FaceArrangement::insert_chord(Index face, const Chord& chord) {
   DartGraph& graph = overlay_.graph;
-  Placed own;
-  own.from_position = position_[chord.from];
-  own.to_position = position_[chord.to];
-  own.a = barycentric_[own.from_position];
-  own.b = barycentric_[own.to_position];
-  const auto [low, high] = std::minmax(own.from_position, own.to_position);
+  const auto id = static_cast<Index>(placed_.size());
+  const Ends ends = {position_[chord.from], position_[chord.to]};
+  const Placed own = {.a = barycentric_[ends.from], .b = barycentric_[ends.to]};
+  const auto [low, high] = std::minmax(ends.from, ends.to);
+  const auto within = [low = low, high = high](Index p) { return low < p && p < high; };
+  const auto on = [low = low, high = high](Index p) { return p == low || p == high; };
   Index pending = 0;
-  for (Placed& other : placed_) {
-    const auto within = [low = low, high = high](Index p) { return low < p && p < high; };
-    const auto on = [low = low, high = high](Index p) { return p == low || p == high; };
-    other.pending = !on(other.from_position) && !on(other.to_position) &&
-                    within(other.from_position) != within(other.to_position);
-    if (!other.pending) continue;
+  for (std::size_t i = 0; i < ends_.size(); ++i) {
+    const auto [from, to] = ends_[i];
+    if (within(from) == within(to) || on(from) || on(to)) continue;
     ++pending;
-    other.at = crossing_parameter(own.a, own.b, other.a, other.b);
+    placed_[i].pending = true;
+    placed_[i].at = crossing_parameter(own.a, own.b, placed_[i].a, placed_[i].b);
   }
   Index corner = start_corner(chord);
   double at = 0;
@@ -156,6 +174,7 @@ void FaceArrangement::insert_chord(Index face, const Chord& chord, Index id) {
   while (graph.from(end) != chord.to) end = graph.next(end);
   graph.connect(corner, end);
   label(graph.dart_count() / 2 - 1, EdgeKind::line, chord.line, id);
+  ends_.push_back(ends);
   placed_.push_back(own);
 }
 

@@ -24,9 +24,11 @@ class FaceArrangement {
   void insert(Index face, Index first, const std::vector<Chord>& chords);
 
  private:
+  struct Ends {
+    Index from = 0;  ///< positions along the outline
+    Index to = 0;
+  };
   struct Placed {
-    Index from_position = 0;  ///< along the outline
-    Index to_position = 0;
     Vec3 a;  ///< barycentric
     Vec3 b;
     bool pending = false;  ///< still to be crossed by the chord being inserted
@@ -34,7 +36,7 @@ class FaceArrangement {
   };
 
   void walk_outline(Index face, Index first);
-  void insert_chord(Index face, const Chord& chord, Index id);
+  void insert_chord(Index face, const Chord& chord);
   Index start_corner(const Chord& chord) const;
   Index next_crossing(Index corner) const;
   Index cross(Index corner, Index dart, Index face, const Vec3& barycentric);
@@ -48,7 +50,9 @@ class FaceArrangement {
   /// Of the present face:
   std::vector<Index> outline_dart_;  ///< [positions] outline dart that leaves the node there
   std::vector<Vec3> barycentric_;    ///< [positions]
-  std::vector<Placed> placed_;       ///< [chords]
+  /// [chords] as inserted; apart, as each new chord looks at the ends of all before.
+  std::vector<Ends> ends_;
+  std::vector<Placed> placed_;
   Index first_edge_ = 0;             ///< all edges from this one on are pieces of chords
   std::vector<Index> chord_;         ///< [edges from first_edge_ on]
 };
