@@ -142,9 +142,7 @@ class Coarsening {
   }
 
   static double longest_square(const TriMesh& mesh, Index wanted) {
-    double area = 0;
-    for (const double a : wedge_areas(mesh)) area += a;
-    return kLongest * kLongest * area / wanted;
+    return kLongest * kLongest * surface_area(mesh) / wanted;
   }
 
   [[nodiscard]] const Vec3& at(Index v) const { return parent_.positions[v]; }

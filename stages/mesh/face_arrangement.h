@@ -53,8 +53,8 @@ class FaceArrangement {
   /// [chords] as inserted; apart, as each new chord looks at the ends of all before.
   std::vector<Ends> ends_;
   std::vector<Placed> placed_;
-  Index first_edge_ = 0;             ///< all edges from this one on are pieces of chords
-  std::vector<Index> chord_;         ///< [edges from first_edge_ on]
+  Index first_edge_ = 0;      ///< all edges from this one on are pieces of chords
+  std::vector<Index> chord_;  ///< [edges from first_edge_ on]
 };
 
 }  // namespace strake

@@ -136,9 +136,7 @@ std::pair<double, Spacing> SpacingModel::for_count(double count,
   const double unit = size_ != nullptr ? 1e3 : mesh_.diagonal;
   const auto tolerance = [unit](double logarithm) { return unit * std::exp(logarithm); };
   // On needles the smallest distances may give fewer; beyond those no factor would do anything.
-  double area = 0;
-  for (const double a : areas_) area += a;
-  count = std::min(count, kMostOfSmallest * area / std::pow(limits.smallest, 2));
+  count = std::min(count, kMostOfSmallest * surface_area(mesh_) / std::pow(limits.smallest, 2));
   const double least = std::log(1e-9);
   const double largest = std::log(0.2);
   double low = least;

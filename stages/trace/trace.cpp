@@ -141,8 +141,7 @@ class WantedSpacing {
     bound_rings(mesh, model_);
     tolerance_of_family_ = sizes.size != nullptr ? 1 : kShareOfFamily * tolerance;
     if (const auto count = wanted_count(options)) {
-      double area = 0;
-      for (const double a : model_.areas()) area += a;
+      const double area = surface_area(mesh);
       if (options.max_spacing) require_room(area / std::pow(limits_.largest, 2), *count, options);
       // Relative to the mean cell: flats may be coarse, but not out of proportion.
       if (!options.max_spacing) limits_.largest = kLargestCell * std::sqrt(area / *count);
