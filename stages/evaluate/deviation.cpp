@@ -23,6 +23,7 @@ constexpr std::int64_t kBatch = 1 << 16;  // between two reports of progress
 constexpr std::size_t kClimbs = 32;       // triangles in which the farthest place is looked for
 constexpr double kClimbedTo = 1e-3;       // of the distance between samples
 constexpr double kNoFarther = 1e-6;       // as a share
+constexpr int kMostSteps = 100;           // of a climb; on a needle it would have no end
 
 const Vec3& position_of(const SurfaceSample& sample) { return sample.position; }
 const Vec3& position_of(const Vec3& place) { return place; }
@@ -111,7 +112,8 @@ Farthest climb(const SurfaceDistance& from, const SurfaceDistance& to, const Sur
   const Vec3 y = start.normal.cross(x);
   ClosestPoint foot = to.closest(start.position);
   Farthest best{foot.distance, start.position};
-  for (const double least = kClimbedTo * step; step > least;) {
+  const double least = kClimbedTo * step;
+  for (int steps = 0; step > least && steps < kMostSteps; ++steps) {
     const Farthest before = best;
     for (int turn = 0; turn < 8; ++turn) {
       const double angle = turn * std::numbers::pi / 4;
