@@ -16,41 +16,39 @@ constexpr SolverOptions kSolver = {.tolerance = 1e-4, .max_iterations = 300};
 
 }  // namespace
 
-BlockSystem::BlockSystem(const std::vector<std::vector<Index>>& neighbours)
-    : diagonal_(neighbours.size()), right_(neighbours.size()) {
+BlockPattern::BlockPattern(const std::vector<std::vector<Index>>& neighbours) {
   for (const std::vector<Index>& row : neighbours) {
-    columns_.insert(columns_.end(), row.begin(), row.end());
-    offsets_.push_back(static_cast<Index>(columns_.size()));
+    columns.insert(columns.end(), row.begin(), row.end());
+    offsets.push_back(static_cast<Index>(columns.size()));
   }
-  blocks_.resize(columns_.size());
-  set_zero();
 }
 
-void BlockSystem::set_zero() {
-  std::fill(blocks_.begin(), blocks_.end(), Mat3::Zero());
-  std::fill(diagonal_.begin(), diagonal_.end(), Mat3::Zero());
-  std::fill(right_.begin(), right_.end(), Vec3::Zero());
-}
+BlockSystem::BlockSystem(const BlockPattern& pattern)
+    : pattern_(pattern),
+      blocks_(pattern.columns.size(), Mat3::Zero()),
+      diagonal_(pattern.offsets.size() - 1, Mat3::Zero()),
+      right_(diagonal_.size(), Vec3::Zero()) {}
 
 void BlockSystem::add(Index i, Index j, const Mat3& block) {
   if (i == j) {
     diagonal_[i] += block;
     return;
   }
-  const auto end = columns_.begin() + offsets_[i + 1];
-  const auto at = std::lower_bound(columns_.begin() + offsets_[i], end, j);
-  blocks_[at - columns_.begin()] += block;
+  const auto& [offsets, columns] = pattern_;
+  const auto end = columns.begin() + offsets[i + 1];
+  const auto at = std::lower_bound(columns.begin() + offsets[i], end, j);
+  blocks_[at - columns.begin()] += block;
 }
 
 void BlockSystem::restrict_to(const std::vector<Mat3>& projections) {
-  tbb::parallel_for(Index{0}, size(), [&](Index i) {
+  tbb::parallel_for(std::size_t{0}, diagonal_.size(), [&](std::size_t i) {
     const Mat3& own = projections[i];
     // What an unknown may not do is an equation of its own, of the same size: 0 = 0.
     const double scale = std::max(diagonal_[i].trace(), std::numeric_limits<double>::min());
     diagonal_[i] = own * diagonal_[i] * own + scale * (Mat3::Identity() - own);
     right_[i] = own * right_[i];
-    for (Index at = offsets_[i]; at < offsets_[i + 1]; ++at) {
-      blocks_[at] = own * blocks_[at] * projections[columns_[at]];
+    for (Index at = pattern_.offsets[i]; at < pattern_.offsets[i + 1]; ++at) {
+      blocks_[at] = own * blocks_[at] * projections[pattern_.columns[at]];
     }
   });
 }
@@ -65,8 +63,8 @@ std::vector<Vec3> BlockSystem::solve() const {
       kSolver,
       [this](Index i, const std::vector<Vec3>& y) -> Vec3 {
         Vec3 sum = diagonal_[i] * y[i];
-        for (Index at = offsets_[i]; at < offsets_[i + 1]; ++at) {
-          sum += blocks_[at] * y[columns_[at]];
+        for (Index at = pattern_.offsets[i]; at < pattern_.offsets[i + 1]; ++at) {
+          sum += blocks_[at] * y[pattern_.columns[at]];
         }
         return sum;
       },

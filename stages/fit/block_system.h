@@ -6,15 +6,22 @@
 
 namespace strake::fitting {
 
+/// Which unknowns of a system may be coupled with which.
+struct BlockPattern {
+  /// \param neighbours [n] ascending and symmetric
+  explicit BlockPattern(const std::vector<std::vector<Index>>& neighbours);
+
+  std::vector<Index> offsets = {0};  ///< [n + 1]
+  std::vector<Index> columns;        ///< [E] of each row in turn, without the diagonal
+};
+
 /// A symmetric, positive definite linear system whose unknowns are vectors in space, one per
 /// vertex.
 class BlockSystem {
  public:
-  /// \param neighbours [n] ascending and symmetric: with which unknowns each one may be coupled
-  explicit BlockSystem(const std::vector<std::vector<Index>>& neighbours);
+  /// With all blocks zero. \param pattern  kept by reference
+  explicit BlockSystem(const BlockPattern& pattern);
 
-  [[nodiscard]] Index size() const { return static_cast<Index>(diagonal_.size()); }
-  void set_zero();
   /// Adds to the block in row i and column j. \pre i = j, or j is a neighbour of i
   void add(Index i, Index j, const Mat3& block);
   void add_right(Index i, const Vec3& value) { right_[i] += value; }
@@ -25,11 +32,10 @@ class BlockSystem {
   [[nodiscard]] std::vector<Vec3> solve() const;
 
  private:
-  std::vector<Index> offsets_ = {0};  ///< [n + 1]
-  std::vector<Index> columns_;        ///< [E] without the diagonal
-  std::vector<Mat3> blocks_;          ///< [E]
-  std::vector<Mat3> diagonal_;        ///< [n]
-  std::vector<Vec3> right_;           ///< [n]
+  const BlockPattern& pattern_;
+  std::vector<Mat3> blocks_;    ///< [E]
+  std::vector<Mat3> diagonal_;  ///< [n]
+  std::vector<Vec3> right_;     ///< [n]
 };
 
 }  // namespace strake::fitting

@@ -169,11 +169,11 @@ void Deviation::measure_surface(const std::vector<Vec3>& positions,
   const SurfaceDistance result(positions, triangles);
   tbb::parallel_for(std::size_t{0}, from_surface_.size(), [&](std::size_t s) {
     const Vec3& place = mesh_.positions[s * step_];
-    auto& [gap, corners, at] = from_surface_[s];
+    auto& [gap, at] = from_surface_[s];
     const ClosestPoint nearest = result.closest_near(place, gap.nearest);
     gap = {nearest.distance, Vec3::Zero(), nearest.triangle};
-    corners = triangles[nearest.triangle];
     at = nearest.barycentric;
+    const Triangle& corners = triangles[nearest.triangle];
     const Vec3& a = positions[corners[0]];
     const Vec3 cross = (positions[corners[1]] - a).cross(positions[corners[2]] - a);
     if (!(normals_[s].dot(cross) > kSameSheet * cross.norm())) return;
@@ -235,9 +235,9 @@ void Deviation::add_to(BlockSystem& system) const {
     return triangles_[t];
   });
   add_in_turn(system, from_surface_.size(), [&](std::size_t s, TriangleTerms& terms) {
-    const auto& [gap, corners, at] = from_surface_[s];
+    const auto& [gap, at] = from_surface_[s];
     terms.add(gap, at, slope_of(gap) * areas_[s]);
-    return corners;
+    return triangles_[gap.nearest];
   });
 }
 

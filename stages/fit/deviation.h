@@ -56,10 +56,9 @@ class Deviation {
  private:
   using Triangle = std::array<Index, 3>;
 
-  /// A gap measured from the surface, and where its other end was in the result.
+  /// A gap measured from the surface, and where its other end was in the nearest triangle.
   struct SurfaceGap {
     Gap gap;
-    Triangle corners = {kNone, kNone, kNone};
     std::array<double, 3> at = {0, 0, 0};  ///< barycentric
   };
 

@@ -28,6 +28,7 @@
 namespace strake {
 namespace {
 
+using fitting::BlockPattern;
 using fitting::BlockSystem;
 using fitting::Deviation;
 using fitting::FaceGuard;
@@ -91,7 +92,7 @@ class Fit {
         outline_(quads.mesh, places_),
         lines_(quads.mesh),
         guard_(quads.mesh, places_),
-        system_(lines_.neighbours()) {
+        pattern_(lines_.neighbours()) {
     measure();
     double area = 0;
     for (const double share : vertex_areas()) area += share;
@@ -112,7 +113,7 @@ class Fit {
     const std::vector<Vec3> moves = solve(squares);
     if (std::ranges::all_of(moves, [](const Vec3& move) { return move.isZero(0); })) return false;
     for (const double step : kSteps) {
-      for (Index v = 0; v < system_.size(); ++v) {
+      for (Index v = 0; v < size(); ++v) {
         places_.restore(v, start[v]);
         places_.move(v, step * moves[v]);
       }
@@ -123,7 +124,7 @@ class Fit {
       places_.update_feet();
       return true;
     }
-    for (Index v = 0; v < system_.size(); ++v) places_.restore(v, start[v]);
+    for (Index v = 0; v < size(); ++v) places_.restore(v, start[v]);
     measure();
     return false;
   }
@@ -173,6 +174,8 @@ class Fit {
   [[nodiscard]] const VertexPlaces& places() const { return places_; }
 
  private:
+  [[nodiscard]] Index size() const { return quads_.mesh.vertex_count(); }
+
   /// What is minimised. \param squares  [V] squared distance that a turn by a radian is worth
   [[nodiscard]] double cost(const std::vector<double>& squares) const {
     return deviation_.cost() + outline_.cost() + lines_.cost(places_, field_, squares);
@@ -221,7 +224,7 @@ class Fit {
 
   /// Puts all vertices back, after their feet were found.
   void put_back(const std::vector<VertexPlaces::State>& start) {
-    for (Index v = 0; v < system_.size(); ++v) places_.restore(v, start[v]);
+    for (Index v = 0; v < size(); ++v) places_.restore(v, start[v]);
     places_.update_feet();
     measure();
   }
@@ -253,7 +256,7 @@ class Fit {
                  const std::vector<VertexPlaces::State>& start, const std::vector<Vec3>& moves,
                  const Share& share) {
     bool any = false;
-    for (Index v = 0; v < system_.size(); ++v) {
+    for (Index v = 0; v < size(); ++v) {
       if (which[v] == 0 || places_.positions()[v] == start[v].position) continue;
       places_.restore(v, start[v]);
       if (const double left = share(v); left > 0) places_.move(v, left * moves[v]);
@@ -264,22 +267,22 @@ class Fit {
 
   /// [V] the moves that would be best if the surface were flat around each sample.
   [[nodiscard]] std::vector<Vec3> solve(const std::vector<double>& squares) {
-    system_.set_zero();
-    deviation_.add_to(system_);
-    outline_.add_to(system_);
-    lines_.add_to(system_, places_, field_, squares);
+    BlockSystem system(pattern_);  // made anew: searching for crossing faces takes as much memory
+    deviation_.add_to(system);
+    outline_.add_to(system);
+    lines_.add_to(system, places_, field_, squares);
     const std::vector<double> area = vertex_areas();
     const std::vector<double> on_surface =
         for_cells(kHoldOnSurface * deviation_.mean() + kLeastHold * unseen_ * unseen_);
     std::vector<Mat3> freedom;
-    for (Index v = 0; v < system_.size(); ++v) {
+    for (Index v = 0; v < size(); ++v) {
       const Mat3 along = places_.normal(v) * places_.normal(v).transpose();
       const double hold = std::max(kHold * area[v], std::numeric_limits<double>::min());
-      system_.add(v, v, hold * along + on_surface[v] * (Mat3::Identity() - along));
+      system.add(v, v, hold * along + on_surface[v] * (Mat3::Identity() - along));
       freedom.push_back(places_.freedom(v));
     }
-    system_.restrict_to(freedom);
-    std::vector<Vec3> moves = system_.solve();
+    system.restrict_to(freedom);
+    std::vector<Vec3> moves = system.solve();
     limit(moves);
     return moves;
   }
@@ -316,7 +319,7 @@ class Fit {
         nearing[w] = std::max(nearing[w], -moves[w].dot(way) / square);
       }
     }
-    for (Index v = 0; v < system_.size(); ++v) {
+    for (Index v = 0; v < size(); ++v) {
       const Vec3& normal = places_.normal(v);
       const double up = moves[v].dot(normal);
       if (std::abs(up) < kShortestMove * shortest[v]) moves[v] -= up * normal;
@@ -339,7 +342,7 @@ class Fit {
   Outline outline_;
   FlowLines lines_;
   FaceGuard guard_;
-  BlockSystem system_;
+  BlockPattern pattern_;
   /// [V] see share_of_mean_cell: in this ratio to the squared distances of all, those of the
   /// component are to be expected.
   std::vector<double> cell_area_;
