@@ -6,10 +6,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
-#include <numeric>
+#include <set>
 #include <string>
-#include <utility>
 
 #include "common/geometry/angles.h"
 #include "stages/evaluate/statistics.h"
@@ -21,6 +21,7 @@ constexpr double kOnEdge = 1e-7;      // barycentric; nearer than this to an edg
 constexpr double kSamePlace = 1e-10;  // of the diagonal; distances that differ by less are equal
 constexpr std::int64_t kBatch = 1 << 16;  // between two reports of progress
 constexpr std::size_t kClimbs = 32;       // triangles in which the farthest place is looked for
+constexpr std::size_t kLookedAt = 256;    // samples, the farthest, of which these are
 constexpr double kClimbedTo = 1e-3;       // of the distance between samples
 constexpr double kNoFarther = 1e-6;       // as a share
 constexpr int kMostSteps = 100;           // of a climb; on a needle it would have no end
@@ -86,19 +87,25 @@ double normal_deviation(const SurfaceSample& sample, const MeasuredSurface& to,
 /// Samples with the largest distances, the largest first, one of a triangle.
 std::vector<SurfaceSample> farthest_samples(const MeasuredSurface& from,
                                             const std::vector<double>& distance) {
-  std::vector<std::int64_t> order(distance.size());
-  std::iota(order.begin(), order.end(), 0);
-  const std::size_t looked_at = std::min(order.size(), 8 * kClimbs);
-  std::ranges::partial_sort(order, order.begin() + static_cast<std::ptrdiff_t>(looked_at), {},
-                            [&](std::int64_t i) { return std::pair(-distance[i], i); });
-  std::vector<SurfaceSample> farthest;
-  for (std::size_t k = 0; k < looked_at && farthest.size() < kClimbs; ++k) {
-    const SurfaceSample sample = from.sample(order[k], static_cast<std::int64_t>(distance.size()));
-    const bool is_first =
-        std::ranges::find(farthest, sample.triangle, &SurfaceSample::triangle) == farthest.end();
-    if (is_first) farthest.push_back(sample);
+  const auto samples = static_cast<std::int64_t>(distance.size());
+  const auto is_farther = [&](std::int64_t i, std::int64_t j) {
+    return distance[i] != distance[j] ? distance[i] > distance[j] : i < j;
+  };
+  std::set<std::int64_t, decltype(is_farther)> farthest(is_farther);
+  for (std::int64_t i = 0; i < samples; ++i) {
+    const bool is_full = farthest.size() == kLookedAt;
+    if (is_full && !is_farther(i, *farthest.rbegin())) continue;
+    farthest.insert(i);
+    if (is_full) farthest.erase(std::prev(farthest.end()));
   }
-  return farthest;
+  std::vector<SurfaceSample> starts;
+  for (const std::int64_t i : farthest) {
+    const SurfaceSample sample = from.sample(i, samples);
+    const bool is_first =
+        std::ranges::find(starts, sample.triangle, &SurfaceSample::triangle) == starts.end();
+    if (is_first && starts.size() < kClimbs) starts.push_back(sample);
+  }
+  return starts;
 }
 
 /// Goes from a sample, within its triangle, to where the distance is largest: to the best of eight

@@ -16,12 +16,16 @@ class OptionEffects : public ProgramTest {
   /// What evaluate says of a run.
   nlohmann::json judged(const std::string& arguments) {
     must("strake remesh " + arguments + " -q -o out.obj --report report.json");
-    return nlohmann::json::parse(bytes("report.json")).at("evaluate").at("result");
+    return told_by("evaluate");
+  }
+  /// What a stage said of the last run.
+  nlohmann::json told_by(const std::string& stage) {
+    return nlohmann::json::parse(bytes("report.json")).at(stage).at("result");
   }
   static int vertices(const nlohmann::json& result) {
     return result.at("topology").at("candidate").at("vertices");
   }
-  PolyMesh result() {
+  PolyMesh mesh() {
     ReadReport report;
     return read_mesh(file("out.obj"), report);
   }
@@ -56,8 +60,7 @@ TEST_F(OptionEffects, FewerLinesEndWhereDistancesFollowThem) {
     must("strake sample " + sample + " -o sample.ply --faces 6000");
     const auto open_lines = [&](const std::string& flow) {
       judged("sample.ply --spacing-scale 1 --line-flow " + flow);
-      const auto traced =
-          nlohmann::json::parse(bytes("report.json")).at("trace").at("result").at("trace");
+      const auto traced = told_by("trace").at("trace");
       return traced.at("lines").get<int>() - traced.at("closed_lines").get<int>();
     };
     EXPECT_LT(open_lines("5"), open_lines("0")) << sample;
@@ -80,13 +83,13 @@ TEST_F(OptionEffects, CubesAreTurnedOutwardsAndDivided) {
       "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
       "f 1 2 3 4\nf 8 7 6 5\nf 5 6 2 1\nf 6 7 3 2\nf 7 8 4 3\nf 8 5 1 4\n");
   const auto volume = [&]() {
-    const PolyMesh mesh = result();
+    const PolyMesh made = mesh();
     double sum = 0;
-    for (Index f = 0; f < mesh.face_count(); ++f) {
-      const auto face = mesh.face(f);
-      const Vec3& a = mesh.positions[face[0]];
+    for (Index f = 0; f < made.face_count(); ++f) {
+      const auto face = made.face(f);
+      const Vec3& a = made.positions[face[0]];
       for (std::size_t i = 2; i < face.size(); ++i) {
-        sum += a.dot(mesh.positions[face[i - 1]].cross(mesh.positions[face[i]])) / 6;
+        sum += a.dot(made.positions[face[i - 1]].cross(made.positions[face[i]])) / 6;
       }
     }
     return sum;
@@ -97,11 +100,7 @@ TEST_F(OptionEffects, CubesAreTurnedOutwardsAndDivided) {
   EXPECT_NEAR(volume(), 1, 1e-9);
   const auto divided = [&](const std::string& option) -> int {
     judged("cube.obj --longest-edge " + option);
-    return nlohmann::json::parse(bytes("report.json"))
-        .at("import")
-        .at("result")
-        .at("census")
-        .at("vertices");
+    return told_by("import").at("census").at("vertices");
   };
   EXPECT_EQ(divided("100%"), 8);
   // The longest edges are diagonals, 0.816 of the cube's.
@@ -125,13 +124,13 @@ TEST_F(OptionEffects, GuidesReachAsFarAsAsked) {
   const auto along = [&](const std::string& reach) {
     judged("saddle.ply --guides guide.obj --vertices 900 --guide-reach " + reach);
     const Vec3 way = Vec3(1.6, 0.9, 0).normalized();
-    const PolyMesh mesh = result();
+    const PolyMesh made = mesh();
     double all = 0;
     double of_guide = 0;
-    for (Index f = 0; f < mesh.face_count(); ++f) {
-      const auto face = mesh.face(f);
+    for (Index f = 0; f < made.face_count(); ++f) {
+      const auto face = made.face(f);
       for (std::size_t i = 0; i < face.size(); ++i) {
-        Vec3 edge = mesh.positions[face[(i + 1) % face.size()]] - mesh.positions[face[i]];
+        Vec3 edge = made.positions[face[(i + 1) % face.size()]] - made.positions[face[i]];
         edge.z() = 0;
         all += edge.norm();
         if (std::abs(edge.dot(way)) > std::cos(0.1745) * edge.norm()) of_guide += edge.norm();
