@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -283,18 +284,19 @@ BendSum ground_at(const TriMesh& mesh, const std::set<Index>& vertices) {
 /// Where points lie closer along one direction than noise is high, as along the lines of a scanner,
 /// such edges join to large webs; on rough ground pieces of any size go.
 Index drop_lumps(TriMesh& mesh) {
-  const MostLeft most_left = measure_noise(mesh).is_much() ? kMostLeftOfNoise : MostLeft{};
+  std::optional<MostLeft> most_left;  // as measuring the mesh takes time, when first asked for
   return drop_pieces(mesh, [&](const std::vector<Index>& piece) {
+    if (!most_left) most_left = measure_noise(mesh).is_much() ? kMostLeftOfNoise : MostLeft{};
     BendSum own;
     for (const Index h : piece) own.add(mesh, h);
-    if (!own.cancels(most_left.own)) return false;
+    if (!own.cancels(most_left->own)) return false;
     std::set<Index> around;
     for (const Index v : vertices_of(mesh, piece)) {
       for_each_outgoing(mesh, v, [&](Index out) { around.insert(mesh.to(out)); });
     }
     const BendSum ground = ground_at(mesh, around);
     const double least = piece.size() > kLargestLump ? kLeastAroundLarge : kLeastAround;
-    return ground.size > least * ground.length && ground.cancels(most_left.around) &&
+    return ground.size > least * ground.length && ground.cancels(most_left->around) &&
            ground.flat < kMostFlat * ground.length;
   });
 }

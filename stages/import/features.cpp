@@ -253,9 +253,10 @@ double length_of_features(const TriMesh& mesh) {
 
 void leave_noise_out(TriMesh& mesh, const std::vector<float>& roughness, FeatureCounts& counts) {
   const double before = length_of_features(mesh);
+  if (before == 0) return;
   counts.dropped_edges = drop_noise(mesh, roughness);
   counts.dropped_length = before - length_of_features(mesh);
-  counts.dropped_share = before > 0 ? counts.dropped_length / before : 0;
+  counts.dropped_share = counts.dropped_length / before;
 }
 
 void find_creases(TriMesh& mesh, double angle_deg, bool all, FeatureCounts& counts) {

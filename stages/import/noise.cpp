@@ -29,14 +29,14 @@ constexpr double kRate = 0.3;
 /// Share of the diagonal below which edges count as this long.
 constexpr double kShortest = 1e-9;
 
-/// Bends of edges, positive where the surface is convex.
+/// Bends of inner edges between faces with an area, positive where the surface is convex.
 struct Bends {
   explicit Bends(const TriMesh& mesh) : mesh_(mesh), area_normals_(mesh.faces.size()) {
     for (Index f = 0; f < mesh.face_count(); ++f) area_normals_[f] = face_cross(mesh, f);
   }
 
-  /// Calls use(half-edge, bend in degrees, length) for each inner edge, in order. Bends, which take
-  /// most of the time, are computed on all threads, some at a time.
+  /// Calls use(half-edge, bend in degrees, length) for each edge, in order. Bends, which take most
+  /// of the time, are computed on all threads, some at a time.
   template <class Use>
   void for_each(const Use& use) const {
     std::vector<Bend> block(std::min(kAtATime, mesh_.halfedge_count()));
@@ -49,23 +49,41 @@ struct Bends {
     }
   }
 
+  /// Calls use(half-edge) for the same edges.
+  template <class Use>
+  void for_each_edge(const Use& use) const {
+    for (Index h = 0; h < mesh_.halfedge_count(); ++h) {
+      if (length_at(h) > 0) use(h);
+    }
+  }
+
  private:
   static constexpr Index kAtATime = 1 << 16;
 
   struct Bend {
     double degrees = 0;
-    double length = 0;  ///< 0: that of no inner edge, or of none between faces with an area
+    double length = 0;  ///< 0: that of no edge
   };
 
-  [[nodiscard]] Bend bend_at(Index h) const {
+  [[nodiscard]] const Vec3& area_normal(Index h) const {
+    return area_normals_[TriMesh::face_of(h)];
+  }
+  [[nodiscard]] Vec3 along(Index h) const {
+    return mesh_.positions[mesh_.to(h)] - mesh_.positions[mesh_.from(h)];
+  }
+  /// 0 where `h` is not the first half-edge of an inner edge between faces with an area.
+  [[nodiscard]] double length_at(Index h) const {
     const Index twin = mesh_.twin[h];
-    if (twin == kNone || h > twin) return {};
-    const Vec3& left = area_normals_[TriMesh::face_of(h)];
-    const Vec3& right = area_normals_[TriMesh::face_of(twin)];
-    const Vec3 along = mesh_.positions[mesh_.to(h)] - mesh_.positions[mesh_.from(h)];
-    const double length = along.norm();
-    if (!(length > 0) || !(left.norm() > 0) || !(right.norm() > 0)) return {};
-    const double bend = std::atan2(left.cross(right).dot(along) / length, left.dot(right));
+    if (twin == kNone || h > twin) return 0;
+    const bool have_area = area_normal(h).norm() > 0 && area_normal(twin).norm() > 0;
+    return have_area ? along(h).norm() : 0;
+  }
+  [[nodiscard]] Bend bend_at(Index h) const {
+    const double length = length_at(h);
+    if (!(length > 0)) return {};
+    const Vec3& left = area_normal(h);
+    const Vec3& right = area_normal(mesh_.twin[h]);
+    const double bend = std::atan2(left.cross(right).dot(along(h)) / length, left.dot(right));
     return {bend * 180 / std::numbers::pi, length};
   }
 
@@ -100,7 +118,7 @@ double to_and_fro(const TriMesh& mesh, const Bends& bends) {
     }
   });
   std::vector<double> around(vertices, 0);
-  bends.for_each([&](Index h, double, double) {
+  bends.for_each_edge([&](Index h) {
     const Index a = mesh.from(h);
     const Index b = mesh.to(h);
     around[a] += sum[b];

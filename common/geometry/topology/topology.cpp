@@ -79,6 +79,29 @@ Index first_wedge_start(const TriMesh& mesh, Index vertex) {
   return barrier != kNone ? barrier : mesh.vertex_out[vertex];
 }
 
+/// [F] A face of lower number in the same component, not always a neighbour; its own number for the
+/// first of each.
+std::vector<Index> faces_before(const TriMesh& mesh) {
+  std::vector<Index> before(mesh.faces.size());
+  const auto first_of = [&](Index face) {
+    while (before[face] != face) {
+      before[face] = before[before[face]];
+      face = before[face];
+    }
+    return face;
+  };
+  for (Index face = 0; face < mesh.face_count(); ++face) {
+    before[face] = face;
+    for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+      if (mesh.twin[h] == kNone || TriMesh::face_of(mesh.twin[h]) > face) continue;
+      const Index mine = first_of(face);
+      const Index other = first_of(TriMesh::face_of(mesh.twin[h]));
+      before[std::max(mine, other)] = std::min(mine, other);
+    }
+  }
+  return before;
+}
+
 Index count_boundary_loops(const TriMesh& mesh) {
   std::vector<std::uint8_t> visited(mesh.halfedge_count(), 0);
   Index loops = 0;
@@ -125,25 +148,11 @@ void build_wedges(TriMesh& mesh) {
 }
 
 std::vector<Index> face_components(const TriMesh& mesh) {
-  std::vector<Index> component(mesh.faces.size(), kNone);
-  std::vector<Index> stack;
+  std::vector<Index> component = faces_before(mesh);
   Index count = 0;
-  for (Index seed = 0; seed < mesh.face_count(); ++seed) {
-    if (component[seed] != kNone) continue;
-    component[seed] = count;
-    stack.assign(1, seed);
-    while (!stack.empty()) {
-      const Index face = stack.back();
-      stack.pop_back();
-      for (Index h = 3 * face; h < 3 * face + 3; ++h) {
-        if (mesh.twin[h] == kNone) continue;
-        const Index neighbour = mesh.twin[h] / 3;
-        if (component[neighbour] != kNone) continue;
-        component[neighbour] = count;
-        stack.push_back(neighbour);
-      }
-    }
-    ++count;
+  for (Index face = 0; face < mesh.face_count(); ++face) {
+    const Index before = component[face];
+    component[face] = before == face ? count++ : component[before];
   }
   return component;
 }

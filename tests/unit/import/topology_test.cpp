@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <map>
+#include <random>
 #include <set>
+#include <vector>
 
 #include "common/core/error.h"
 #include "common/geometry/topology/vertex_ring.h"
@@ -179,6 +183,31 @@ TEST(Validate, FindsEveryKindOfDamage) {
   breaks("a coordinate that is no number", [](TriMesh& m) { m.positions[0].x() = std::nan(""); });
   breaks("a wedge of another vertex", [](TriMesh& m) { m.face_wedges[0][0] = m.wedge_of(1); });
   breaks("flags of another size", [](TriMesh& m) { m.is_corner.pop_back(); });
+}
+
+TEST(Topology, ComponentsDoNotDependOnTheOrderOfFaces) {
+  TriMesh mesh =
+      shapes::imported(
+          support::together(shapes::torus(20, 14),
+                            support::transformed(shapes::torus(9, 8), Mat3::Identity(), {9, 0, 0})))
+          .mesh;
+  std::mt19937 random(5);
+  std::ranges::shuffle(mesh.faces, random);
+  build_topology(mesh);
+  const std::vector<Index> component = face_components(mesh);
+  std::array<Index, 2> faces = {0, 0};
+  Index highest = -1;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    ASSERT_LE(component[f], highest + 1) << "numbered in order of the first face";
+    highest = std::max(highest, component[f]);
+    ASSERT_LT(component[f], 2);
+    ++faces[component[f]];
+    for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+      EXPECT_EQ(component[f], component[TriMesh::face_of(mesh.twin[h])]);
+    }
+  }
+  EXPECT_EQ(std::max(faces[0], faces[1]), 2 * 20 * 14);
+  EXPECT_EQ(std::min(faces[0], faces[1]), 2 * 9 * 8);
 }
 
 TEST(Topology, MeasuresComponents) {
