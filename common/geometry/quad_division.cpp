@@ -46,7 +46,7 @@ class Division {
     for (std::size_t a = i + 1; a < j; a += 2) {
       for (std::size_t b = a + 1; b < j; b += 2) {
         const double shape = quad_(i, a, b, j);
-        if (!(shape < least + 1)) continue;  // diagonals may lower the price a little
+        if (!(shape < kInfinity)) continue;
         const double price = shape + chord(i, a) + chord(a, b) + chord(b, j);
         if (!(price < least)) continue;
         least = price;

@@ -18,7 +18,7 @@ struct QuadDivision {
 
 /// What a quad of four ascending corners costs; infinite: it must not be.
 using QuadPrice = std::function<double(std::size_t, std::size_t, std::size_t, std::size_t)>;
-/// What a diagonal between corners i < j costs; infinite: it must not be; at least -0.25.
+/// What a diagonal between corners i < j costs; infinite: it must not be.
 using DiagonalPrice = std::function<double(std::size_t, std::size_t)>;
 
 /// The cheapest division of a polygon into quads, by dynamic programming over the diagonals.

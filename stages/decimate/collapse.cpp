@@ -50,8 +50,14 @@ class LineQuadrics : public OpenMesh::Decimater::ModBaseT<MeshT> {
   LineQuadrics& operator=(const LineQuadrics&) = delete;
   ~LineQuadrics() override { Base::mesh().remove_property(quadric_); }
 
-  /// Whether vertices of feature lines may leave them, and corners go.
+  /// From now on vertices of feature lines may leave them, and corners go along them.
   void give_up_features() { keeps_features_ = false; }
+  /// From now on corners may go anywhere: OpenMesh keeps vertices with this flag to features.
+  void give_up_corners() {
+    for (const auto vertex : Base::mesh().vertices()) {
+      Base::mesh().status(vertex).set_feature(false);
+    }
+  }
 
   void initialize() override {
     const MeshT& surface = Base::mesh();
@@ -187,10 +193,12 @@ void collapse(Surface& surface, std::size_t count, Observer& observer) {
   Progress progress(observer, surface.n_vertices() - count);
   decimater.set_observer(&progress);
   if (!decimater.initialize()) throw AlgorithmError("decimation does not start; please report");
-  const std::size_t removed = decimater.decimate_to(count);
-  const std::size_t left = surface.n_vertices() - removed;
+  std::size_t left = surface.n_vertices() - decimater.decimate_to(count);
   if (left <= count) return;
   decimater.module(lines).give_up_features();
+  left -= decimater.decimate(left - count);
+  if (left <= count) return;
+  decimater.module(lines).give_up_corners();
   decimater.decimate(left - count);
 }
 

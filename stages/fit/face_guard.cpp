@@ -171,6 +171,10 @@ std::vector<std::uint8_t> FaceGuard::newly_crossing(const VertexPlaces& places) 
       for (const Index v : mesh_.face(f)) crossing[v] = 1;
     }
   }
+  // Less of a move may lead to the same place, at the end of a line: its faces are looked at again.
+  for (std::size_t v = 0; v < crossing.size(); ++v) {
+    if (crossing[v] != 0) looked_at_[v].setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
   return crossing;
 }
 

@@ -142,7 +142,7 @@ class StripCount {
     for (const Offer& offer : offers) {
       const auto rungs = static_cast<Index>(offer.strip.rungs.size());
       // Nearer to the wanted number than before.
-      if (rungs >= 2 * left) continue;
+      if (rungs / 2 >= left) continue;
       if (!claim_strip(graph_, offer.strip, missing < 0, claimed)) continue;
       if (missing < 0) {
         collapse_strip(graph_, offer.strip);

@@ -128,6 +128,7 @@ SizeResult size_from_errors(const TriMesh& mesh, const PrincipalField& field, co
   // Under a tolerance nothing is won where errors are small already.
   const double largest_growth = options.tolerance ? 1 : kLargestGrowth;
   const auto change = [&](double error, double share) {
+    if (options.tolerance && error <= goal) return 1.0;
     const double factor = std::exp(feedback * (goal - error - std::log(2 * share)));
     return std::clamp(factor, kLargestShrink, largest_growth);
   };

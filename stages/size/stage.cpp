@@ -9,7 +9,7 @@ namespace strake {
 Stage size_stage() {
   Stage stage;
   stage.name = "size";
-  stage.version = 7;
+  stage.version = 8;
   stage.summary = "Wants lines closer where a result is too far from the surface.";
   stage.inputs = {{"mesh", PortKind::mesh, "mesh artifact"},
                   {"field", PortKind::field, "field artifact of that mesh"},

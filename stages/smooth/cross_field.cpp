@@ -97,9 +97,9 @@ CrossSystem cross_system(const TriMesh& mesh, const WedgeGraph& graph, double st
       if (mesh.is_barrier(h)) {
         const double hold = mesh.is_boundary(h) ? kBoundaryWeight : kFeatureWeight;
         diagonal += hold;
-        const bool is_saw =
-            mesh.is_boundary(h) && !ragged.empty() && !ragged[mesh.from(h)].isZero(0);
-        const Vec3& along = is_saw ? ragged[mesh.from(h)] : edge;
+        const Index v = mesh.wedge_vertex[w];
+        const bool is_saw = mesh.is_boundary(h) && !ragged.empty() && !ragged[v].isZero(0);
+        const Vec3& along = is_saw ? ragged[v] : edge;
         system.right[w] += hold * cross_power(frames[w].tangent_from_world(along));
       } else {
         weight += dirichlet_weight(mesh, mesh.twin[h]);

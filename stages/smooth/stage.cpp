@@ -9,7 +9,7 @@ namespace strake {
 Stage smooth_stage() {
   Stage stage;
   stage.name = "smooth";
-  stage.version = 10;
+  stage.version = 11;
   stage.summary = "Smooths curvature tensors and extracts principal frames.";
   stage.inputs = {
       {"mesh", PortKind::mesh, "mesh artifact"},

@@ -33,6 +33,8 @@ ArmBonds::ArmBonds(const TriMesh& mesh, const PrincipalField& field) : mesh_(mes
     ties_.emplace_back(there, here);
   }
   std::sort(ties_.begin(), ties_.end());
+  // Inside a line both of its edges tie the same two.
+  ties_.erase(std::unique(ties_.begin(), ties_.end()), ties_.end());
 }
 
 Index ArmBonds::standing_for(Index h) const {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "stages/trace/face_blocks.h"
@@ -34,19 +36,23 @@ class Coverage {
     Vec3 barycentric;
     Vec3 direction;  ///< world
   };
-  /// Calls use(gap) for each uncovered arm in `face`, as they are when their turn comes.
+  /// Calls use(gap) once for each arm that is uncovered when its turn comes, face by face; a wedge
+  /// is looked at in the first of its faces.
   template <class Use>
-  void for_gaps(Index face, const Use& use) const {
-    for (int corner = 0; corner < 3; ++corner) {
-      for (int arm = 0; arm < 2; ++arm) {
-        if (is_gap(wedge_marks_[domain_.mesh.face_wedges[face][corner]], arm)) {
-          use(corner_gap(face, corner, arm));
+  void for_gaps(const Use& use) const {
+    std::vector<std::uint8_t> is_done(wedge_marks_.size(), 0);
+    for (Index face = 0; face < domain_.mesh.face_count(); ++face) {
+      for (int corner = 0; corner < 3; ++corner) {
+        const Index wedge = domain_.mesh.face_wedges[face][corner];
+        if (std::exchange(is_done[wedge], 1) != 0) continue;
+        for (int arm = 0; arm < 2; ++arm) {
+          if (is_gap(wedge_marks_[wedge], arm)) use(corner_gap(face, corner, arm));
         }
       }
-    }
-    for (Index p = offsets_[face]; p < offsets_[face + 1]; ++p) {
-      for (int arm = 0; arm < 2; ++arm) {
-        if (is_gap(points_[p].marks, arm)) use(point_gap(face, p, arm));
+      for (Index p = offsets_[face]; p < offsets_[face + 1]; ++p) {
+        for (int arm = 0; arm < 2; ++arm) {
+          if (is_gap(points_[p].marks, arm)) use(point_gap(face, p, arm));
+        }
       }
     }
   }

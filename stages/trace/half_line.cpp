@@ -110,9 +110,9 @@ bool LineWalker::pass_feature(LineHead& head, Index h, HalfLine& half) {
   const int j = mesh.twin[h] % 3;
   const Vec2 edge =
       (head.context.chart.corner[(j + 1) % 3] - head.context.chart.corner[j]).normalized();
-  if (cross2(edge, heading) < kFlattestCrossing) return false;
-  head.heading = heading;
-  head.trusted = heading;
+  const bool is_flat = cross2(edge, heading) < kFlattestCrossing;
+  if (is_flat && barriers_[h] != 0) return false;
+  if (!is_flat) head.heading = head.trusted = heading;  // else straight on: no line is kept there
   head.family = family;
   return true;
 }

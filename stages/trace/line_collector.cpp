@@ -79,26 +79,25 @@ bool LineCollector::is_left_out(const Seed& seed) const {
 
 void LineCollector::saturate() {
   phase_ = "filling gaps";
-  for (Index f = 0; f < domain_.mesh.face_count(); ++f) {
-    if (is_of_speck_[f] != 0) continue;
-    finished_.coverage().for_gaps(f, [&](const Coverage::Gap& gap) {
-      tracer_.proximity().clear();
-      grow({centred(domain_, seed_of(gap), tracer_.proximity())});
-    });
-  }
+  finished_.coverage().for_gaps([&](const Coverage::Gap& gap) {
+    const Seed seed = seed_of(gap);
+    if (is_left_out(seed)) return;
+    const Index before = lines_.line_count();
+    tracer_.proximity().clear();
+    grow({centred(domain_, seed, tracer_.proximity())});
+    if (lines_.line_count() == before) grow({seed});  // in the middle there may be no room for one
+  });
 }
 
 double LineCollector::largest_gap() {
   ProximityProbe& proximity = tracer_.proximity();
   proximity.clear();
   double largest = settings_.cover_fraction;
-  for (Index f = 0; f < domain_.mesh.face_count(); ++f) {
-    if (is_of_speck_[f] != 0) continue;
-    finished_.coverage().for_gaps(f, [&](const Coverage::Gap& gap) {
-      const LineHead head = start_head(domain_, seed_of(gap), true);
-      largest = std::max(largest, share_to_nearest(domain_, head, proximity));
-    });
-  }
+  finished_.coverage().for_gaps([&](const Coverage::Gap& gap) {
+    if (is_of_speck_[gap.face] != 0) return;
+    const LineHead head = start_head(domain_, seed_of(gap), true);
+    largest = std::max(largest, share_to_nearest(domain_, head, proximity));
+  });
   return largest;
 }
 

@@ -92,7 +92,7 @@ Spacing SpacingModel::ungraded(double tolerance, const SpacingLimits& limits) co
                            : needle_factor(curvature, tolerance, limits) *
                                  spacing_for_curvature(curvature, tolerance, limits.largest);
       const double wanted = std::min(limits.largest, shrink_.empty() ? d : shrink_[w] * d);
-      return std::max(limits.smallest, limits.scale * wanted);
+      return std::max(limits.smallest, std::min(limits.cap, limits.scale * wanted));
     };
     const double a = distance(curvature_along_[w], &SizeField::along);
     const double b = distance(curvature_across_[w], &SizeField::across);
@@ -123,7 +123,8 @@ void SpacingModel::follow_lines(double cells, const SpacingLimits& limits, Spaci
   const double factor = std::sqrt(predicted_vertices(areas_, spacing) / count);
   for (auto* distances : {&spacing.along, &spacing.across}) {
     for (double& d : *distances) {
-      d = std::max(limits.smallest, std::min(factor * d, limits.scale * limits.largest));
+      const double largest = std::min(limits.cap, limits.scale * limits.largest);
+      d = std::max(limits.smallest, std::min(factor * d, largest));
     }
   }
   apply_bounds(limits, spacing);

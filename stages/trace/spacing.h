@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -18,10 +19,11 @@ struct Spacing {
 /// Bounds on the spacing, model units.
 struct SpacingLimits {
   double smallest = 0;
-  double largest = 0;
+  double largest = 0;                                    ///< before the scale
+  double cap = std::numeric_limits<double>::infinity();  ///< whatever the scale
   double gradation = 0.25;  ///< largest change of spacing per unit of distance on the surface
   double aspect_ratio = 6;  ///< largest ratio of the two spacings of a point
-  double scale = 1;         ///< factor on what the tolerance gives, within the other limits
+  double scale = 1;         ///< factor on what the tolerance gives
 };
 
 /// Distance of lines that keeps a surface of curvature k within the tolerance ([A03], [MK04]

@@ -132,8 +132,12 @@ class WantedSpacing {
                                                                               : 0) {
     const double tolerance = options.tolerance.value_or(kDefaultTolerance).resolve(mesh.diagonal);
     limits_.smallest = kSmallestSpacing * mesh.diagonal;
-    limits_.largest = options.max_spacing ? options.max_spacing->resolve(mesh.diagonal)
-                                          : largest_spacing(tolerance, mesh.diagonal);
+    if (options.max_spacing) {
+      limits_.largest = limits_.cap = options.max_spacing->resolve(mesh.diagonal);
+    } else {  // that of a size field is in it already
+      limits_.largest = sizes.size != nullptr ? std::numeric_limits<double>::infinity()
+                                              : largest_spacing(tolerance, mesh.diagonal);
+    }
     // A size field was made from distances that had the density in them already.
     if (sizes.density != nullptr && sizes.size == nullptr) {
       model_.multiply_density(density_at_wedges(mesh, *sizes.density));

@@ -325,10 +325,15 @@ void trace_to_count(Session& session, const GoalStages& stages, const LineAim& a
                              .done;
 }
 
+/// How lines were traced without a goal.
+struct FreeTrace {
+  double scale = 1;  ///< of the distances that curvature gives, before errors were made even
+  bool looked_at_errors = false;
+};
+
 /// Traces, and closer where so many faces cross, or they are so far off, that lines are too coarse
 /// for the shape. Then makes errors even, unless that brings crossing faces back.
-/// \return whether errors were looked at
-bool trace_freely(Session& session, const GoalStages& stages, std::int64_t feedback_rounds) {
+FreeTrace trace_freely(Session& session, const GoalStages& stages, std::int64_t feedback_rounds) {
   CrossingPlaces crossing(session.get<TriMesh>("mesh"));
   trace_and_mesh(session, stages);
   double share = crossing_share(session, crossing);
@@ -343,15 +348,16 @@ bool trace_freely(Session& session, const GoalStages& stages, std::int64_t feedb
   while (times_left > 0 && share > kTooManyCross && may_be_too_coarse(session, "quads")) {
     trace_closer(fmt::format("{:.0f} % of the faces cross", 100 * share));
   }
-  if (feedback_rounds == 0 || crossing.is_stacked()) return false;
+  double scale = line_scale(stages);
+  if (feedback_rounds == 0 || crossing.is_stacked()) return {scale, false};
   for (std::int64_t round = 0; round < feedback_rounds;) {
     const Session before = session;
-    const double scale_before = line_scale(stages);
     const double off = even_out(session, stages);
     if (round == 0 && off > kTooFarOff && times_left > 0 && may_be_too_coarse(before, "quads")) {
       session = before;
-      scale_lines(stages, scale_before);
+      scale_lines(stages, scale);
       trace_closer(fmt::format("cells are {:.2g} of their length off in the mean", off));
+      scale = line_scale(stages);
       continue;
     }
     const double now = crossing_share(session, crossing);
@@ -362,7 +368,7 @@ bool trace_freely(Session& session, const GoalStages& stages, std::int64_t feedb
     share = now;
     ++round;
   }
-  return true;
+  return {scale, true};
 }
 
 /// Fits what the present lines give, with some more vertices by dividing the worst cells, and again
@@ -433,21 +439,28 @@ std::string follow_spacing(Session& session, const GoalStages& stages,
   // A density says where vertices go, not the errors.
   const std::int64_t rounds =
       feedback_rounds.value_or(session.has("density") ? 0 : kFeedbackRounds);
+  double scale = 1;
   const auto attempt = [&] {
     Session traced = session;
-    const bool by_errors = trace_freely(traced, stages, rounds) && goes_by_errors(traced, stages);
+    const FreeTrace trace = trace_freely(traced, stages, rounds);
+    scale = trace.scale;
+    const bool by_errors = trace.looked_at_errors && goes_by_errors(traced, stages);
     return fit_freely(traced, stages, by_errors ? kLeftForWorst : 0);
   };
   Attempt best = attempt();
   for (int i = 0; i < kMostTimesCloserAtLast && may_be_parted(best); ++i) {
     session.say(fmt::format("{} faces cross; tracing closer lines", best.places.size()));
-    scale_lines(stages, kCloser * line_scale(stages));
-    Attempt other = attempt();
-    if (other.places.size() < best.places.size()) {
-      best = std::move(other);
-    } else {
-      keep_attempt(best, stages);
+    scale_lines(stages, kCloser * scale);
+    try {
+      Attempt other = attempt();
+      if (other.places.size() < best.places.size()) {
+        best = std::move(other);
+        continue;
+      }
+    } catch (const AlgorithmError& error) {
+      session.say(std::string("warning: kept the first lines: ") + error.what());
     }
+    keep_attempt(best, stages);
   }
   session = best.done;
   if (session.has("uncrossed")) session.keep(stages.uncross);

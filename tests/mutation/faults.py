@@ -497,7 +497,7 @@ FAULTS = [
           "import_tests", "^FeatureNoise"),
     Fault("a spike on a flat is a lump of noise",
           "stages/import/feature_noise.cpp",
-          "return ground.size > least * ground.length && ground.cancels(most_left.around) &&\n           ground.flat < kMostFlat * ground.length;", "return least > 0;",
+          "return ground.size > least * ground.length && ground.cancels(most_left->around) &&\n           ground.flat < kMostFlat * ground.length;", "return least > 0;",
           "import_tests", "^FeatureNoise"),
     Fault("bits of creases that run across faces are features",
           "stages/import/feature_noise.cpp",

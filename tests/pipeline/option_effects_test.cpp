@@ -7,6 +7,7 @@
 #include "common/artifact/meshfile/mesh_reader.h"
 #include "common/geometry/samples/samples.h"
 #include "tests/pipeline/run_program.h"
+#include "tests/support/models.h"
 
 namespace strake::pipeline_test {
 namespace {
@@ -43,6 +44,14 @@ TEST_F(OptionEffects, PricesMakeQuadsAndRegularVertices) {
   };
   EXPECT_LT(quads(judged(run + "--odd-price 0")), quads(usual) - 0.01);
   EXPECT_LT(regular(judged(run + "--valence-price 0")), regular(usual) - 0.005);
+}
+
+// Also where faces cross and lines are traced anew.
+TEST_F(OptionEffects, LinesFartherApartGiveFewerVertices) {
+  STRAKE_MODELS_OR_SKIP(models);
+  const std::string run = (models / "poly/shark.ply").string() + " --spacing-scale ";
+  const int usual = vertices(judged(run + "1"));
+  for (const std::string scale : {"1.8", "3"}) EXPECT_LT(vertices(judged(run + scale)), usual);
 }
 
 TEST_F(OptionEffects, LinesStopWhereOthersAreNear) {

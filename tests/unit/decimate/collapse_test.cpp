@@ -52,6 +52,18 @@ TEST(CollapseTo, KeepsFeatureLines) {
   EXPECT_GT(ends.size(), coarse.positions.size() / 2);
 }
 
+/// Corners off all lines, as tips are, go at last, too.
+TEST(CollapseTo, GivesUpCornersWhereNothingElseIsLeft) {
+  TriMesh mesh = sample(SampleKind::ellipsoid, 2000);
+  for (Index v = 0; v < mesh.vertex_count(); v += 5) mesh.is_corner[v] = 1;
+  const auto corners = std::ranges::count(mesh.is_corner, 1);
+  ASSERT_GT(corners, 100);
+  const CoarseSurface with = collapsed(mesh, static_cast<Index>(corners + 20));
+  EXPECT_EQ(std::ranges::count_if(with.vertex, [&](Index v) { return mesh.is_corner[v] != 0; }),
+            corners);
+  EXPECT_EQ(collapsed(mesh, 40).positions.size(), 40u);
+}
+
 TEST(CollapseTo, KeepsTheBoundary) {
   const TriMesh mesh = sample(SampleKind::open_cylinder, 3000);
   const CoarseSurface coarse = collapsed(mesh, 40);

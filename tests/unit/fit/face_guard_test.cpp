@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "common/geometry/surface_distance/surface_distance.h"
@@ -51,6 +53,38 @@ TEST(FaceGuard, SidesKeepALength) {
   // Where that was so from the start it may stay.
   guard.set_start(places);
   EXPECT_FALSE(guard.is_spoilt(places, 0));
+}
+
+/// Whoever takes back less than it takes, or nothing, as at the end of a line, hears of it again.
+TEST(FaceGuard, CrossingsAreFoundUntilTheyAreGone) {
+  PolyMesh sheets;
+  QuadMesh quads;
+  for (const Index sheet : {0, 1}) {
+    for (const auto& [x, y] : {std::pair{0, 0}, {1, 0}, {1, 1}}) {
+      sheets.positions.emplace_back(x, y, sheet);
+    }
+    sheets.add_face(std::array<Index, 3>{3 * sheet, 3 * sheet + 1, 3 * sheet + 2});
+    for (const Vec3& b : {Vec3(0.8, 0.1, 0.1), Vec3(0.1, 0.8, 0.1), Vec3(0.1, 0.1, 0.8)}) {
+      quads.mesh.positions.emplace_back(b[1] + b[2], b[2], sheet);
+      quads.provenance.face.push_back(sheet);
+      quads.provenance.barycentric.push_back({b[0], b[1], b[2]});
+    }
+    quads.mesh.add_face(std::array<Index, 3>{3 * sheet, 3 * sheet + 1, 3 * sheet + 2});
+  }
+  const TriMesh mesh = support::plain_tri_mesh(sheets);
+  const SurfaceDistance surface(mesh.positions, mesh.faces);
+  fitting::VertexPlaces places(mesh, surface, quads);
+  fitting::FaceGuard guard(quads.mesh, places);
+  guard.set_start(places);
+  const auto any_crosses = [&] { return std::ranges::count(guard.newly_crossing(places), 1) > 0; };
+  EXPECT_FALSE(any_crosses());
+  const fitting::VertexPlaces::State before = places.state(0);
+  places.move(0, Vec3(0, 0, 3));
+  ASSERT_GT((places.positions()[0] - before.position).norm(), 2);
+  EXPECT_TRUE(any_crosses());
+  EXPECT_TRUE(any_crosses());
+  places.restore(0, before);
+  EXPECT_FALSE(any_crosses());
 }
 
 /// A quarter of the way in each round would be all but all of it.

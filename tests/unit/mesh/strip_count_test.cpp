@@ -103,6 +103,17 @@ TEST(MeetVertexCount, NeverJoinsTheMiddlesOfTwoRungsTwice) {
   EXPECT_EQ(meet_vertex_count(graph, unit_length, 1, 6).split, 0);
 }
 
+/// Twice of it is more than an index holds.
+TEST(MeetVertexCount, MoreMayBeMissingThanCanEverBe) {
+  constexpr Index kMissing = 1'200'000'000;
+  const TriMesh mesh = grid_mesh({{0, 1, 2, 3, 4, 5}, steps(6)});
+  for (const Index missing : {100, kMissing}) {
+    PolygonGraph graph = cells_of(mesh, is_straight);
+    const auto before = static_cast<Index>(places(graph, mesh).size());
+    EXPECT_GT(meet_vertex_count(graph, unit_length, 1, before + missing).split, 0) << missing;
+  }
+}
+
 class CountedSurfaces : public ::testing::TestWithParam<SampleKind> {};
 
 INSTANTIATE_TEST_SUITE_P(Samples, CountedSurfaces,

@@ -131,6 +131,16 @@ TEST(Size, UnderAToleranceNothingGrows) {
   EXPECT_LT(mean_factor(c, size.along, 0.7, 1), 1);
 }
 
+/// Also not where cells are bent along one direction alone, whose lines have all of the error.
+TEST(Size, UnderAToleranceNothingShrinksWhereItIsKept) {
+  const Case c = bent_more_on_the_right();
+  SizeOptions options;
+  options.tolerance = Length{0.02, false};  // no cell is farther off
+  const SizeField size = sizes(c, options);
+  for (const double d : size.along) EXPECT_DOUBLE_EQ(d, kUsed);
+  for (const double d : size.across) EXPECT_DOUBLE_EQ(d, kUsed);
+}
+
 /// A surface that is the same seen from its other end gives distances that are.
 TEST(Size, IsSymmetricWhereTheSurfaceIs) {
   const auto height = [](double x, double y) {

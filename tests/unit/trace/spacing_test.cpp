@@ -9,6 +9,7 @@
 #include <random>
 
 #include "common/geometry/mesh_measures.h"
+#include "stages/trace/line_flow.h"
 #include "tests/support/import_support.h"
 #include "tests/support/mesh_support.h"
 #include "tests/unit/trace/fields.h"
@@ -235,6 +236,28 @@ TEST(Grading, TiesDistancesAlongAFeatureOnItsTwoSidesOnly) {
     }
   }
   EXPECT_GT(creases, 0);
+}
+
+/// Lines part on one side of a feature and run side by side on the other one.
+TEST(LineFlow, ChangesDistancesBesideAFeatureByTheSame) {
+  const TriMesh mesh = bent_sheet();
+  const PrincipalField field = field_along(
+      mesh, [](const Vec3& p) { return p.y() > 0 ? Vec3(1, 0.5 * p.y(), 0) : Vec3(1, 0, 0); });
+  constexpr double kDistance = 0.2;
+  Spacing spacing;
+  spacing.along.assign(mesh.wedge_vertex.size(), kDistance);
+  spacing.across = spacing.along;
+  follow_lines(mesh, field, ArmBonds(mesh, field), 5, spacing);
+  double change = 0;
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    if (mesh.is_feature[h] == 0) continue;
+    const Index here = mesh.wedge_of(h);
+    const Index there = mesh.wedge_of(TriMesh::next(mesh.twin[h]));
+    ASSERT_NE(here, there);
+    EXPECT_NEAR(spacing.along[here], spacing.along[there], 1e-12);
+    change = std::max(change, std::abs(spacing.along[here] / kDistance - 1));
+  }
+  EXPECT_GT(change, 0.001) << "there is to be something to share";
 }
 
 /// A plane with one curvature everywhere in the direction across its field, and none along it.

@@ -8,11 +8,13 @@
 #include <optional>
 #include <random>
 
+#include "common/artifact/meshfile/mesh_reader.h"
 #include "common/core/error.h"
 #include "common/geometry/line_chord.h"
 #include "common/geometry/topology/topology.h"
 #include "tests/support/chain.h"
 #include "tests/support/mesh_support.h"
+#include "tests/support/models.h"
 #include "tests/unit/trace/fields.h"
 
 namespace strake {
@@ -271,6 +273,93 @@ TEST(Trace, LeavesOutComponentsSmallerThanTheirDistance) {
     }
     EXPECT_EQ(on_speck > 0, size == 0.2) << size << ": " << on_speck;
     EXPECT_GT(expect_lines_on_surface(prepared.mesh, lines), 100);
+  }
+}
+
+support::Prepared plane_along_x(std::int64_t faces) {
+  support::Prepared plane;
+  plane.mesh = sample_mesh(SampleKind::plane, faces);
+  plane.field = field_along(plane.mesh, [](const Vec3&) { return Vec3::UnitX(); });
+  return plane;
+}
+
+double largest_distance(const LineSet& lines) {
+  return std::max(std::ranges::max(lines.spacing_along_min),
+                  std::ranges::max(lines.spacing_along_max));
+}
+
+TEST(Trace, NoFactorLeadsBeyondTheLargestDistance) {
+  const support::Prepared plane = plane_along_x(2000);
+  TraceOptions options;
+  options.max_spacing = percent(4);
+  const double most = options.max_spacing->resolve(plane.mesh.diagonal) * (1 + 1e-12);
+  for (const double scale : {0.5, 1.0, 2.0, 5.0}) {
+    options.spacing_scale = scale;
+    EXPECT_LE(largest_distance(support::trace(plane, options)), most) << scale;
+  }
+  options.spacing_scale.reset();
+  options.vertices = 350;  // about what the largest distances give, so fewer lines would do
+  EXPECT_LE(largest_distance(support::trace(plane, options)), most);
+}
+
+TEST(Trace, DistancesOfASizeFieldAreTaken) {
+  const support::Prepared plane = plane_along_x(2000);
+  SizeField size;
+  size.along.assign(plane.mesh.wedge_vertex.size(), 0.2 * plane.mesh.diagonal);
+  size.across = size.along;
+  SilentObserver observer;
+  WantedSizes sizes;
+  sizes.size = &size;
+  TraceOptions options;
+  for (int i = 0; i < 2; ++i) {
+    const TraceResult result = trace_lines(plane.mesh, plane.field, options, observer, sizes);
+    EXPECT_NEAR(largest_distance(result.lines), 0.2 * plane.mesh.diagonal, 1e-9);
+    options.tolerance = percent(0.5);  // has nothing to decide
+  }
+}
+
+/// A crease too short for lines at this distance is no line, and none ends at it.
+TEST(Trace, NoLineEndsAtAFeatureThatIsLeftOut) {
+  support::Prepared plane = plane_along_x(8000);
+  TriMesh& mesh = plane.mesh;
+  int edges = 0;
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    if (mesh.is_boundary(h)) continue;
+    const Vec3 way = mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)];
+    const Vec3 middle = (mesh.positions[mesh.to(h)] + mesh.positions[mesh.from(h)]) / 2;
+    const double lean = std::abs(way.y()) / way.norm();
+    if (lean > 0.3 || lean < 0.05 || middle.cwiseAbs().maxCoeff() > 0.8) continue;
+    mesh.is_feature[h] = mesh.is_feature[mesh.twin[h]] = 1;
+    ++edges;
+  }
+  ASSERT_GT(edges, 100);
+  build_wedges(mesh);
+  plane.field = field_along(mesh, [](const Vec3&) { return Vec3::UnitX(); });
+  TraceOptions options;
+  options.vertices = 150;
+  const LineSet lines = support::trace(plane, options);
+  const auto is_of_features = [&](Index l) { return lines.family[l] == LineFamily::feature; };
+  for (Index l = 0; l < lines.line_count(); ++l) {
+    ASSERT_FALSE(is_of_features(l)) << "all are to be left out";
+    EXPECT_NE(lines.start_reason[l], LineEnd::feature);
+    EXPECT_NE(lines.end_reason[l], LineEnd::feature);
+  }
+}
+
+/// Between many creases the middle of a gap is often no place for a line.
+TEST(Trace, LinesReachEverywhereOnParts) {
+  STRAKE_MODELS_OR_SKIP(models);
+  for (const char* name : {"cad/extruder-body.stl", "cad/LCD-knob.stl"}) {
+    ReadReport read;
+    const support::Prepared part = support::prepare(read_mesh((models / name).string(), read));
+    TraceOptions options;
+    options.vertices = 1500;
+    SilentObserver observer;
+    const TraceResult result = trace_lines(part.mesh, part.field, options, observer);
+    const auto gap = std::ranges::find(result.report.entries(), "trace.largest_gap",
+                                       [](const auto& entry) { return entry.first; });
+    ASSERT_NE(gap, result.report.entries().end());
+    EXPECT_LT(std::get<double>(gap->second), 0.96) << name;
   }
 }
 
