@@ -57,10 +57,9 @@ Vec3 choose_origin(const Eigen::AlignedBox3d& box) {
   return (box.center() / grid).array().round().matrix() * grid;
 }
 
-/// Diagonals between which products of several lengths, also of edges, are numbers, and areas in
-/// single precision.
+/// Diagonals between which products of several lengths, also of edges, are numbers.
 constexpr double kSmallest = 1e-30;
-constexpr double kLargest = 1e18;
+constexpr double kLargest = 1e60;
 
 /// Moves the soup to its origin. \throw InputError where it has no extent or area
 void place(Soup& soup, TriMesh& frame) {

@@ -9,7 +9,7 @@ namespace strake {
 Stage tensor_stage() {
   Stage stage;
   stage.name = "tensor";
-  stage.version = 7;
+  stage.version = 8;
   stage.summary = "Estimates the curvature tensor of a mesh at every vertex.";
   stage.inputs = {
       {.name = "mesh", .kind = PortKind::mesh, .help = "mesh artifact", .of_parent = true},

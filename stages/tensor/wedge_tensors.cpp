@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdlib>
 
 #include "common/geometry/frames.h"
 #include "common/geometry/mesh_measures.h"
@@ -22,6 +23,8 @@ constexpr double kMostFacesOfDefault = 2e6;
 constexpr Index kMostFacesOfBall = 4000;
 
 constexpr Index kBlock = 256;
+/// Of two, in the radius of balls: beyond it areas and bends are no numbers in single precision.
+constexpr int kLargestExponent = 50;
 
 /// Mean length of the edges around each wedge.
 std::vector<double> wedge_edge_lengths(const TriMesh& mesh) {
@@ -38,6 +41,20 @@ std::vector<double> wedge_edge_lengths(const TriMesh& mesh) {
   return sum;
 }
 
+/// The same by way of a mesh whose lengths are divided by a power of two.
+WedgeTensors estimate_in_other_unit(int exponent, const TriMesh& mesh,
+                                    const std::vector<Index>& wedges, const BallRule& rule,
+                                    Observer& observer) {
+  TriMesh scaled = mesh;
+  for (Vec3& p : scaled.positions) p *= std::exp2(-exponent);
+  WedgeTensors result = estimate_wedge_tensors(
+      scaled, wedges, {std::ldexp(rule.radius, -exponent), rule.most_faces}, observer);
+  for (auto& tensor : result.tensor) {
+    for (double& entry : tensor) entry = std::ldexp(entry, -exponent);
+  }
+  return result;
+}
+
 }  // namespace
 
 BallRule ball_rule(const TensorOptions& options, double diagonal, Index faces) {
@@ -48,6 +65,9 @@ BallRule ball_rule(const TensorOptions& options, double diagonal, Index faces) {
 
 WedgeTensors estimate_wedge_tensors(const TriMesh& mesh, const std::vector<Index>& wedges,
                                     const BallRule& rule, Observer& observer) {
+  if (const int exponent = std::ilogb(rule.radius); std::abs(exponent) > kLargestExponent) {
+    return estimate_in_other_unit(exponent, mesh, wedges, rule, observer);
+  }
   const FaceNormals face_normals(mesh);
   WedgeTensors result;
   {  // first, while there is nothing else to remember

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <numeric>
 #include <vector>
 
@@ -50,6 +51,30 @@ TEST(EstimateTensors, OfACoarserMeshAreThoseOfTheMeshThere) {
   for (std::size_t i = 0; i < some.tensor.size(); ++i) {
     EXPECT_EQ(some.tensor[i], all.tensor[coarse.parent_wedge[i]]);
     EXPECT_EQ(some.normal[i], all.normal[coarse.parent_wedge[i]]);
+  }
+}
+
+// Areas of the largest of these are no numbers in single precision, and of the smallest they are 0.
+TEST(WedgeTensors, AreTheSameInAnyUnit) {
+  SampleOptions options;
+  options.faces = 3000;
+  const TriMesh mesh = support::plain_tri_mesh(make_sample(SampleKind::torus, options));
+  std::vector<Index> wedges(static_cast<std::size_t>(mesh.wedge_count()));
+  std::iota(wedges.begin(), wedges.end(), Index{0});
+  SilentObserver observer;
+  const double radius = 0.2;
+  const WedgeTensors usual = estimate_wedge_tensors(mesh, wedges, {radius}, observer);
+  for (const int exponent : {-95, -30, 30, 65, 190}) {
+    TriMesh scaled = mesh;
+    for (Vec3& p : scaled.positions) p *= std::exp2(exponent);
+    const WedgeTensors tensors =
+        estimate_wedge_tensors(scaled, wedges, {std::ldexp(radius, exponent)}, observer);
+    EXPECT_EQ(tensors.normal, usual.normal) << exponent;
+    for (std::size_t i = 0; i < wedges.size(); ++i) {
+      for (std::size_t k = 0; k < 6; ++k) {
+        EXPECT_EQ(tensors.tensor[i][k], std::ldexp(usual.tensor[i][k], -exponent)) << exponent;
+      }
+    }
   }
 }
 
