@@ -50,6 +50,8 @@ void warn_of_count(Session& session, const LineAim& aim) {
   } else if (reached > aim.wanted && session.has("decimated")) {
     why = has_warned(session, "decimate") ? "fewer would change the topology of the surface"
                                           : "faces of fewer cross, or miss the shape";
+  } else if (session.has("decimated")) {
+    why = "faces of more cross, or miss the shape";
   }
   const std::string missed =
       missed_count({aim.counted, aim.wanted, reached, corners}, "the nearest result has", why);

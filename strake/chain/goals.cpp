@@ -301,13 +301,20 @@ void trace_to_count(Session& session, const GoalStages& stages, const LineAim& a
     const Option& scale = stages.trace.option("spacing-scale");
     const std::string scale_before = scale.value();
     merging.emplace(distance, kAnyDistance);
-    Session merged = session;
-    const bool merged_has_strips = search_scale(merged, stages, aim);
-    if (aim.ratio_miss(count_of(merged, "quads", aim.counted)) <
-        aim.ratio_miss(count_of(session, "quads", aim.counted))) {
-      session = std::move(merged);
-      has_strips = merged_has_strips;
-    } else {
+    bool is_nearer = false;
+    try {
+      Session merged = session;
+      const bool merged_has_strips = search_scale(merged, stages, aim);
+      is_nearer = aim.ratio_miss(count_of(merged, "quads", aim.counted)) <
+                  aim.ratio_miss(count_of(session, "quads", aim.counted));
+      if (is_nearer) {
+        session = std::move(merged);
+        has_strips = merged_has_strips;
+      }
+    } catch (const AlgorithmError& error) {
+      session.say(std::string("warning: kept all corners: ") + error.what());
+    }
+    if (!is_nearer) {
       merging.reset();
       scale.parse_into(scale_before);
     }

@@ -189,7 +189,7 @@ bool search_scale(Session& session, const GoalStages& stages, const LineAim& aim
       }
       session.run(stages.mesh);
     } catch (const AlgorithmError& error) {
-      if (search.trial_count() == 0) throw;
+      if (!best) throw;
       session.say(std::string("warning: gave up correcting the count: ") + error.what());
       break;
     }
