@@ -16,6 +16,7 @@
 #include "common/geometry/face_crossings/crossing_places.h"
 #include "stages/mesh/mesh.h"
 #include "strake/chain/attempt.h"
+#include "strake/chain/closer_lines.h"
 #include "strake/chain/goal_warnings.h"
 #include "strake/chain/line_aim.h"
 #include "strake/chain/line_search.h"
@@ -42,22 +43,15 @@ constexpr int kFittedRefinements = 2;
 /// tolerance, and at which share of their distances.
 constexpr int kCloserPlaces = 8;
 constexpr double kCloserThere = 0.5;
-/// Times that all lines are, where that is not enough, and at which share.
+/// Times that all lines are, where that is not enough.
 constexpr int kCloserLines = 2;
-constexpr double kCloser = 0.6;
-/// Share of the faces that cross, from which on all lines are traced closer where nobody wants a
-/// count; and times they are at most. Within a tolerance: share from which on they are before cells
-/// are divided, to which they are then, and share of the result from which on it is made anew.
-constexpr double kTooManyCross = 0.05;
+/// Share of the faces that cross from which on, within a tolerance, lines are traced closer before
+/// cells are divided, and share of the result from which on it is made anew.
 constexpr double kTangled = 0.5;
-constexpr double kMended = 0.3;
 constexpr double kTangledResult = 0.1;
-constexpr int kMostTimesCloser = 4;
-/// The same where some cross after all that is done about single ones.
+/// Times that lines are traced closer where nobody wants a count and faces cross after all that is
+/// done about single ones.
 constexpr int kMostTimesCloserAtLast = 1;
-/// Root mean square of the distance of lines, in mean cell lengths, from which on they are traced
-/// closer likewise: noise can hide the shape from them.
-constexpr double kTooFarOff = 0.15;
 /// Attempts in vain to part faces that cross; within a tolerance the input's own faces have been
 /// tried for them before.
 constexpr int kPatience = 5;
@@ -96,37 +90,6 @@ std::optional<ToleranceError> refine_in_turn(Session& session, const GoalStages&
   }
   if (!miss) session.keep(stages.refine);
   return miss;
-}
-
-/// Whether there are fewer vertices than the input has, so that lines may be too coarse for it.
-bool may_be_too_coarse(const Session& session, const char* port) {
-  return count_of(session, port, Counted::vertices) < given_vertex_count(session);
-}
-
-/// \param places  of the faces at a port that cross \return their share
-double crossing_share(const Session& session, const char* port, const std::vector<Vec3>& places) {
-  return static_cast<double>(places.size()) / session.get<QuadMesh>(port).mesh.face_count();
-}
-
-/// Share of the faces that lines give that cross.
-double crossing_share(const Session& session, CrossingPlaces& crossing) {
-  return crossing_share(session, "quads", crossing.of(session.get<QuadMesh>("quads").mesh));
-}
-
-/// Traces, meshes and fits; where more faces cross than `most`, as lines are farther apart than the
-/// shape is thick, at closer distances until so few do that they can be mended. Within a tolerance
-/// larger than that nothing else tells that faces are inside out.
-void trace_apart(Session& session, const GoalStages& stages, CrossingPlaces& crossing,
-                 double most) {
-  trace_mesh_and_fit(session, stages);
-  for (int i = 0; i < kMostTimesCloser && may_be_too_coarse(session, "quads"); ++i) {
-    const double share = crossing_share(session, crossing);
-    if (share <= most) return;
-    most = kMended;
-    session.say(fmt::format("{:.0f} % of the faces cross; tracing closer lines", 100 * share));
-    scale_lines(stages, kCloser * line_scale(stages));
-    trace_mesh_and_fit(session, stages);
-  }
 }
 
 /// Traces at the distances that the options ask for, and closer where dividing cells does not reach
@@ -330,52 +293,6 @@ void trace_to_count(Session& session, const GoalStages& stages, const LineAim& a
                        : mend_by_closer_lines(first, stages, aim, want_relatively_closer,
                                               for_decimation, crossing)
                              .done;
-}
-
-/// How lines were traced without a goal.
-struct FreeTrace {
-  double scale = 1;  ///< of the distances that curvature gives, before errors were made even
-  bool looked_at_errors = false;
-};
-
-/// Traces, and closer where so many faces cross, or they are so far off, that lines are too coarse
-/// for the shape. Then makes errors even, unless that brings crossing faces back.
-FreeTrace trace_freely(Session& session, const GoalStages& stages, std::int64_t feedback_rounds) {
-  CrossingPlaces crossing(session.get<TriMesh>("mesh"));
-  trace_and_mesh(session, stages);
-  double share = crossing_share(session, crossing);
-  int times_left = kMostTimesCloser;
-  const auto trace_closer = [&](const std::string& why) {
-    session.say(why + "; tracing closer lines");
-    scale_lines(stages, kCloser * line_scale(stages));
-    trace_and_mesh(session, stages);
-    share = crossing_share(session, crossing);
-    --times_left;
-  };
-  while (times_left > 0 && share > kTooManyCross && may_be_too_coarse(session, "quads")) {
-    trace_closer(fmt::format("{:.0f} % of the faces cross", 100 * share));
-  }
-  double scale = line_scale(stages);
-  if (feedback_rounds == 0 || crossing.is_stacked()) return {scale, false};
-  for (std::int64_t round = 0; round < feedback_rounds;) {
-    const Session before = session;
-    const double off = even_out(session, stages);
-    if (round == 0 && off > kTooFarOff && times_left > 0 && may_be_too_coarse(before, "quads")) {
-      session = before;
-      scale_lines(stages, scale);
-      trace_closer(fmt::format("cells are {:.2g} of their length off in the mean", off));
-      scale = line_scale(stages);
-      continue;
-    }
-    const double now = crossing_share(session, crossing);
-    if (now > std::max(share, kTooManyCross)) {
-      session = before;
-      break;
-    }
-    share = now;
-    ++round;
-  }
-  return {scale, true};
 }
 
 /// Fits what the present lines give, with some more vertices by dividing the worst cells, and again
