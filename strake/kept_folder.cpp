@@ -57,6 +57,7 @@ std::vector<fs::path> KeptFolder::files() const {
 
 void KeptFolder::check(const std::vector<NamedFile>& others) const {
   std::vector<fs::path> written = files();
+  written.push_back(times());
   for (const NamedFile& other : others) {
     for (const fs::path& path : written) {
       if (other.path.empty() || !is_same_file(path.string(), other.path)) continue;

@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -26,6 +27,18 @@ void require_connected(const TriMesh& mesh, const ArtifactReader& file) {
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     file.require(mesh.from(mesh.vertex_out[v]) == v, "vertex_out", "contradicts the faces");
   }
+}
+
+/// Whether the diagonal may be that of the mesh, or of a finer one of which it has some vertices:
+/// lengths are shares of it.
+void require_diagonal(double diagonal, const std::vector<Vec3>& positions,
+                      const ArtifactReader& file) {
+  constexpr double kFactor = 100;
+  Eigen::AlignedBox3d box;
+  for (const Vec3& p : positions) box.extend(p);
+  const double own = box.diagonal().norm();
+  file.require(diagonal > 0 && own < kFactor * diagonal && diagonal < kFactor * own, "diagonal",
+               "is not that of the box around the positions");
 }
 
 }  // namespace
@@ -96,6 +109,7 @@ TriMesh read_tri_mesh(const std::filesystem::path& path) {
   file.require_finite(mesh.positions, "positions");
   file.require_finite(origin, "origin");
   file.require_finite(diagonal, "diagonal");
+  require_diagonal(diagonal.front(), mesh.positions, file);
   file.require_indices(mesh.faces, 0, vertices, "faces");
   file.require_indices(mesh.twin, kNone, 3 * faces, "twin");
   file.require_indices(mesh.vertex_out, 0, 3 * faces, "vertex_out");

@@ -38,6 +38,7 @@ MeshBlocks::Header read_header(const ArtifactReader& file) {
   const auto diagonal = file.own<double>("diagonal");
   file.require_rows(diagonal, 1, "diagonal");
   file.require_finite(diagonal, "diagonal");
+  file.require(diagonal.front() > 0, "diagonal", "is not positive");
   header.diagonal = diagonal.front();
   return header;
 }

@@ -44,7 +44,7 @@ _RENAMED = {"vertices_wanted": "vertices", "faces_wanted": "faces"}
 class Faces:
     """Polygons: face f has the corners corners[offsets[f]:offsets[f + 1]], counter-clockwise.
 
-    A sequence of arrays, one per face; `quads` and `triangles` are plain arrays of those faces.
+    A sequence of arrays, one per face, of which a slice is a list; `quads` and `triangles` are plain arrays of those faces.
     """
 
     def __init__(self, offsets, corners):
@@ -56,6 +56,8 @@ class Faces:
 
     def __getitem__(self, face):
         face = range(len(self))[face]
+        if isinstance(face, range):
+            return [self[one] for one in face]
         return self.corners[self.offsets[face]:self.offsets[face + 1]]
 
     def __repr__(self):
@@ -207,9 +209,13 @@ def _numbered(labels):
     """Labels of faces as numbers, and what the numbers stand for where texts were given."""
     numbers, names = {}, {}
     for kind, values in _kind("labels", labels, dict).items():
-        values = _array(f"labels '{kind}'", values)
+        values = _array(f"labels '{_kind('a name of labels', kind, str)}'", values)
         if values.dtype.kind in "OSU":
-            known, values = _np.unique(values.astype(str), return_inverse=True)
+            try:
+                texts = values.astype(str)
+            except UnicodeDecodeError as error:
+                raise UsageError(f"labels '{kind}': some are no text: {error}") from None
+            known, values = _np.unique(texts, return_inverse=True)
             names[kind] = known.tolist()
         numbers[kind] = _whole(values, f"labels '{kind}'")
     return numbers, names
@@ -221,10 +227,12 @@ def _colours(colours):
     kind = _array("colours", colours).dtype
     if kind == _np.uint8:
         numbers = numbers / 255
-    elif kind.kind in "iu" and ((numbers < 0) | (numbers > 1)).any():
-        raise InputError("colours: integers beyond 0 and 1; 0 to 255 are taken of uint8 alone")
     if not _np.isfinite(numbers).all():
         raise InputError("colours: some are no finite numbers")
+    rounding = 1e-6
+    if ((numbers < -rounding) | (numbers > 1 + rounding)).any():
+        raise InputError("colours: numbers beyond 0 and 1; 0 to 255 are taken of uint8 alone")
+    numbers = numbers.clip(0, 1)
     if numbers.ndim == 2 and numbers.shape[1] == 3:
         numbers = _np.hstack([numbers, _np.ones((len(numbers), 1))])
     return numbers
@@ -244,6 +252,8 @@ def polygons(vertices, faces, colours=None, texture=None, labels=None):
         colours = _colours(colours)
     if texture is not None:
         texture = _numbers("texture", texture)
+        if not _np.isfinite(texture).all():
+            raise InputError("texture: some coordinates are no finite numbers")
         if texture.ndim > 2:
             texture = texture.reshape(-1, texture.shape[-1])
     return _core.polygons(_numbers("vertices", vertices), offsets, corners, colours, texture, *_numbered(labels or {}))
@@ -264,7 +274,12 @@ def _guides(guides):
 
 
 def _density(density):
-    return None if density is None else _core.density(_numbers("density", density))
+    if density is None:
+        return None
+    numbers = _numbers("density", density)
+    if numbers.size == 0:
+        raise InputError("density: there are no numbers; give one for every vertex, or None")
+    return _core.density(numbers)
 
 
 def remesh(vertices, faces, *, colours=None, texture=None, labels=None, feature_edges=None,

@@ -113,27 +113,78 @@ std::vector<BarrierLine> all_lines(const TriMesh& mesh, const Flags& is_corner) 
   return lines;
 }
 
+/// The two ends of open lines, as far as these are not left out.
+class LineEnds {
+ public:
+  LineEnds(const TriMesh& mesh, const std::vector<BarrierLine>& lines)
+      : mesh_(mesh), lines_(lines), at_(mesh.positions.size()) {
+    for (Index l = 0; l < line_count(); ++l) {
+      if (lines[l].closed) continue;
+      for (const Index v : of(l)) at_[v] = {at_[v].count + 1, at_[v].sum + l};
+    }
+  }
+
+  [[nodiscard]] Index line_count() const { return static_cast<Index>(lines_.size()); }
+  [[nodiscard]] std::array<Index, 2> of(Index line) const {
+    const std::vector<Index>& halfedges = lines_[line].halfedges;
+    return {mesh_.from(halfedges.front()), mesh_.to(halfedges.back())};
+  }
+  [[nodiscard]] bool is_free(Index vertex) const { return at_[vertex].count == 1; }
+
+  /// The lines from a free end of one to where lines meet or end; no more of them than it takes to
+  /// be long enough.
+  [[nodiscard]] std::vector<Index> chain_from(Index line, Index free_end) const {
+    std::vector<Index> chain;
+    double measure = 0;
+    for (Index v = free_end;;) {
+      chain.push_back(line);
+      measure += lines_[line].measure;
+      const auto [a, b] = of(line);
+      v = v == a ? b : a;
+      if (measure >= kShortestFreeEnd || at_[v].count != 2) return chain;
+      line = static_cast<Index>(at_[v].sum - line);
+      if (lines_[line].boundary) return chain;
+    }
+  }
+
+  [[nodiscard]] double measure(const std::vector<Index>& chain) const {
+    double sum = 0;
+    for (const Index line : chain) sum += lines_[line].measure;
+    return sum;
+  }
+
+  void leave_out(Index line) {
+    for (const Index v : of(line)) at_[v] = {at_[v].count - 1, at_[v].sum - line};
+  }
+
+ private:
+  struct AtVertex {
+    Index count = 0;
+    std::int64_t sum = 0;  ///< of the lines' numbers: of two, one tells the other
+  };
+
+  const TriMesh& mesh_;
+  const std::vector<BarrierLine>& lines_;
+  std::vector<AtVertex> at_;  ///< [V]
+};
+
 /// Marks lines that are too small for the wanted distances, until no more are found.
 std::vector<char> too_small(const TriMesh& mesh, const std::vector<BarrierLine>& lines) {
   std::vector<char> dropped(lines.size(), 0);
-  const auto ends = [&](const BarrierLine& line) {
-    return std::array<Index, 2>{mesh.from(line.halfedges.front()), mesh.to(line.halfedges.back())};
-  };
-  std::vector<Index> degree(mesh.vertex_count(), 0);
-  for (const BarrierLine& line : lines) {
-    if (line.closed) continue;
-    for (const Index v : ends(line)) ++degree[v];
-  }
+  LineEnds ends(mesh, lines);
   for (bool changed = true; changed;) {
     changed = false;
-    for (std::size_t l = 0; l < lines.size(); ++l) {
-      const BarrierLine& line = lines[l];
-      if (dropped[l] != 0 || line.closed || line.boundary) continue;
-      const auto [a, b] = ends(line);
-      if ((degree[a] > 1 && degree[b] > 1) || line.measure >= kShortestFreeEnd) continue;
-      dropped[l] = 1;
-      --degree[a];
-      --degree[b];
+    for (Index l = 0; l < ends.line_count(); ++l) {
+      if (dropped[l] != 0 || lines[l].closed || lines[l].boundary) continue;
+      const auto [a, b] = ends.of(l);
+      if (!ends.is_free(a) && !ends.is_free(b)) continue;
+      // Corners in its course make a line no shorter.
+      const std::vector<Index> chain = ends.chain_from(l, ends.is_free(a) ? a : b);
+      if (ends.measure(chain) >= kShortestFreeEnd) continue;
+      for (const Index line : chain) {
+        dropped[line] = 1;
+        ends.leave_out(line);
+      }
       changed = true;
     }
   }
@@ -145,7 +196,7 @@ std::vector<char> too_small(const TriMesh& mesh, const std::vector<BarrierLine>&
     if (dropped[l] != 0) continue;
     if (lines[l].closed || lines[l].boundary) ring[groups.find(static_cast<Index>(l))] = 1;
     if (lines[l].closed) continue;
-    for (const Index v : ends(lines[l])) {
+    for (const Index v : ends.of(static_cast<Index>(l))) {
       const Index own = groups.find(static_cast<Index>(l));
       if (group[v] == kNone) {
         group[v] = own;

@@ -9,7 +9,7 @@ namespace strake {
 Stage trace_stage() {
   Stage stage;
   stage.name = "trace";
-  stage.version = 19;
+  stage.version = 20;
   stage.summary = "Covers a mesh with lines of curvature, boundary and feature lines.";
   stage.inputs = {{"mesh", PortKind::mesh, "mesh artifact"},
                   {"field", PortKind::field, "field artifact of that mesh"},

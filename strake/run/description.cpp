@@ -11,6 +11,7 @@
 #include "common/core/error.h"
 #include "common/core/text.h"
 #include "strake/run/rules.h"
+#include "strake/run/run_paths.h"
 #include "strake/run/slurm_options.h"
 #include "strake/run/stage_catalog.h"
 
@@ -47,7 +48,7 @@ std::vector<std::string> matching_files(const fs::path& folder, const std::strin
   std::vector<std::string> files;
   if (::glob(whole.c_str(), 0, nullptr, &matches) == 0) {
     for (std::size_t i = 0; i < matches.gl_pathc; ++i) {
-      const fs::path file = fs::path(matches.gl_pathv[i]).lexically_normal();
+      const fs::path file = without_dots(matches.gl_pathv[i]);
       if (is_file(file)) files.push_back(file.string());
     }
   }
@@ -73,13 +74,13 @@ class Reader {
  public:
   explicit Reader(const fs::path& file)
       : top_(YamlView::load(file).fields("a pipeline", kTopKeys)) {
-    description_.file = fs::absolute(file).lexically_normal();
+    description_.file = without_dots(fs::absolute(file));
     folder_ = description_.file.parent_path();
-    if (!has_control_characters(folder_.string())) return;
+    const std::string unfit = unfit_for_runs(folder_);
+    if (unfit.empty()) return;
     throw UsageError(
-        fmt::format("'{}': a pipeline cannot be run in a folder with line breaks or "
-                    "other control characters in its path; rename it",
-                    on_one_line(folder_.string())));
+        fmt::format("'{}': a pipeline cannot be run in a folder with {} in its path; rename it",
+                    on_one_line(folder_.string()), unfit));
   }
 
   Description read() {
@@ -109,9 +110,9 @@ class Reader {
     description_.store = folder_ / ".strake";
     if (!top_.count("store")) return;
     const YamlView& view = top_.at("store");
-    description_.store = (folder_ / view.text("a folder") / "").lexically_normal().parent_path();
-    if (has_control_characters(description_.store.string())) {
-      view.fail("the path of a store cannot have line breaks or other control characters in it");
+    description_.store = without_dots(folder_ / view.text("a folder") / "").parent_path();
+    if (const std::string unfit = unfit_for_runs(description_.store); !unfit.empty()) {
+      view.fail(fmt::format("the path of a store cannot have {} in it", unfit));
     }
     if (description_.store != folder_) return;
     view.fail("the folder of the pipeline file cannot be the store; name one for results alone");
@@ -222,7 +223,7 @@ class Reader {
     std::sort(names.begin(), names.end());
     names.erase(std::unique(names.begin(), names.end()), names.end());
     for (const auto& [name, value] : view.fields("inputs of a model", names)) {
-      const fs::path file = (folder_ / value.text("a file")).lexically_normal();
+      const fs::path file = without_dots(folder_ / value.text("a file"));
       if (!is_file(file)) note_missing(model, file, value.place());
       model.inputs[name] = file;
     }
@@ -244,7 +245,9 @@ class Reader {
   /// Names of variants; the name of an entry with lists stands for all it was expanded to.
   [[nodiscard]] std::vector<std::string> variant_names(const YamlView& view) const {
     std::vector<std::string> names;
-    for (const YamlView& item : view.items("names of variants")) {
+    const std::vector<YamlView> items = view.items("names of variants");
+    if (items.empty()) view.fail("there is no variant: a model without any gives nothing");
+    for (const YamlView& item : items) {
       const std::string name = item.text("the name of a variant");
       const std::size_t before = names.size();
       std::vector<std::string> known;
@@ -261,7 +264,7 @@ class Reader {
 
   /// Adds the file, or each file that a pattern with * or ? matches, named by its stem.
   void add_files(const std::string& name, const std::string& text, const Place& place) {
-    const fs::path file = (folder_ / text).lexically_normal();
+    const fs::path file = without_dots(folder_ / text);
     const bool is_there = is_file(file);
     if (is_there || text.find_first_of(kPatternMarks) == std::string::npos) {
       const std::string own = name.empty() ? file.stem().string() : name;

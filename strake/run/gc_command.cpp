@@ -126,7 +126,7 @@ int GcCommand::run() const {
       remove(store, listed, "the store would be too large", freed);
     } else {
       room -= bytes;
-      ++kept;
+      if (listed.entry) ++kept;  // else what a failed step has left
     }
   }
   if (!dry_run) {

@@ -11,6 +11,7 @@
 #include "common/core/error.h"
 #include "common/core/text.h"
 #include "strake/run/rules.h"
+#include "strake/run/run_paths.h"
 
 namespace strake {
 
@@ -40,12 +41,11 @@ Description PipelineOptions::read() const {
 }
 
 fs::path PipelineOptions::named_store() const {
-  const fs::path folder = (fs::absolute(store) / "").lexically_normal().parent_path();
-  if (!has_control_characters(folder.string())) return folder;
-  throw UsageError(
-      fmt::format("--store '{}': the path of a store cannot have line breaks or other "
-                  "control characters in it",
-                  on_one_line(folder.string())));
+  const fs::path folder = without_dots(fs::absolute(store) / "").parent_path();
+  const std::string unfit = unfit_for_runs(folder);
+  if (unfit.empty()) return folder;
+  throw UsageError(fmt::format("--store '{}': the path of a store cannot have {} in it",
+                               on_one_line(folder.string()), unfit));
 }
 
 Selection PipelineOptions::selection(const Description& description) const {

@@ -13,6 +13,7 @@
 #include "common/core/number_text.h"
 #include "common/core/text.h"
 #include "strake/run/rules.h"
+#include "strake/run/run_paths.h"
 #include "strake/run/stage_catalog.h"
 
 namespace strake {
@@ -92,6 +93,7 @@ class Planner {
   Planner(const Description& description, const Selection& selection)
       : description_(description), selection_(selection) {
     plan_.store = description.store;
+    sources_.emplace(real_path(description.file), "the pipeline file");
     for (const ModelEntry& model : description.models) {
       for (const auto& [name, file] : model.inputs) {
         sources_.emplace(real_path(file),
@@ -201,7 +203,7 @@ class Planner {
       for (const Delivery& delivery : description_.deliveries) {
         if (delivery.artifact != rule->output) continue;
         const std::string name = filled_in(delivery.file, model.name, variant.name);
-        deliver(step, (folder / name).lexically_normal().string(), variant, delivery.place);
+        deliver(step, without_dots(folder / name).string(), variant, delivery.place);
       }
     }
   }

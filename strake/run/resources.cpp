@@ -45,7 +45,7 @@ std::int64_t Resources::memory(double faces, double vertices) const {
 }
 
 double Resources::time(double faces, double vertices) const {
-  return seconds + seconds_per_face * faces + seconds_per_vertex * vertices;
+  return std::min(seconds + seconds_per_face * faces + seconds_per_vertex * vertices, kLargest);
 }
 
 Resources default_resources(std::string_view program) {

@@ -174,6 +174,8 @@ RunSettings RunCommand::settings(const Description& description) const {
   settings.keep_going = keep_going;
   settings.pipeline = description.file;
   settings.targets = pipeline.targets;
+  settings.until = pipeline.until;
+  settings.options = pipeline.settings;
   if (engine == kSlurm) return settings;
   settings.memory = wanted_memory();
   return settings;

@@ -16,8 +16,6 @@ namespace {
 constexpr std::chrono::milliseconds kRedraw{100};
 constexpr std::chrono::seconds kLine{10};
 
-constexpr int kInterruptedCode = 130;
-
 std::string outcome_text(const StepOutcome& outcome) {
   switch (outcome.kind) {
     case StepOutcome::Kind::ran:
@@ -29,8 +27,7 @@ std::string outcome_text(const StepOutcome& outcome) {
     case StepOutcome::Kind::failed:
       break;
   }
-  return outcome.exit_code == kInterruptedCode ? "interrupted"
-                                               : fmt::format("failed ({})", outcome.exit_code);
+  return outcome.is_interrupted() ? "interrupted" : fmt::format("failed ({})", outcome.exit_code);
 }
 
 }  // namespace
@@ -46,7 +43,7 @@ void RunDisplay::update() {
   if (quiet_) return;
   const auto now = std::chrono::steady_clock::now();
   if (now - last_shown_ < kRedraw) return;
-  show_ended();
+  show_ended(Stopped::may_go_on);
   if (!terminal_ && now - last_shown_ < kLine) return;
   last_shown_ = now;
   show_running();
@@ -54,14 +51,15 @@ void RunDisplay::update() {
 
 void RunDisplay::finish() {
   clear_block();
-  show_ended();
+  show_ended(Stopped::have_ended);
 }
 
-void RunDisplay::show_ended() {
+void RunDisplay::show_ended(Stopped steps) {
   for (const StepOrder& order : orders_) {
     if (ended_.count(order.id) != 0) continue;
     const std::optional<StepOutcome> outcome = folder_.outcome(order.id);
     if (!outcome) continue;
+    if (outcome->is_interrupted() && steps == Stopped::may_go_on) continue;
     ended_.insert(order.id);
     if (quiet_ && outcome->exit_code == 0) continue;
     clear_block();

@@ -22,7 +22,9 @@ class RunDisplay {
   void finish();
 
  private:
-  void show_ended();
+  enum class Stopped { may_go_on, have_ended };  ///< steps that are interrupted
+
+  void show_ended(Stopped steps);
   void show_running();
   void clear_block();
 

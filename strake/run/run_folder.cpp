@@ -101,7 +101,9 @@ RunFolder RunFolder::create(const Store& store, const RunSettings& settings) {
                   {"memory", settings.memory},
                   {"keep_going", settings.keep_going},
                   {"pipeline", settings.pipeline.string()},
-                  {"targets", settings.targets}}
+                  {"targets", settings.targets},
+                  {"until", settings.until},
+                  {"options", settings.options}}
                  .dump(1),
              Flush::no);
   return RunFolder(path);
@@ -109,9 +111,13 @@ RunFolder RunFolder::create(const Store& store, const RunSettings& settings) {
 
 RunSettings RunFolder::settings() const {
   return read_json(path_ / "run.json", [](const Json& json) {
-    return RunSettings{json.at("store").get<std::string>(), json.at("memory"),
-                       json.at("keep_going"), json.at("pipeline").get<std::string>(),
-                       json.at("targets").get<std::vector<std::string>>()};
+    return RunSettings{json.at("store").get<std::string>(),
+                       json.at("memory"),
+                       json.at("keep_going"),
+                       json.at("pipeline").get<std::string>(),
+                       json.at("targets").get<std::vector<std::string>>(),
+                       json.at("until"),
+                       json.at("options").get<std::vector<std::string>>()};
   });
 }
 

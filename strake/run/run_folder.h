@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/artifact/store/store.h"
+#include "common/core/error.h"
 #include "strake/run/plan.h"
 #include "strake/run/survey.h"
 
@@ -62,6 +63,12 @@ struct StepOutcome {
   std::string content;  ///< `content_digest` of the file
   double seconds = 0;
   std::int64_t peak_bytes = 0;
+
+  /// Whether it was told to stop. A cluster starts such a step once more where it took the machine
+  /// for another job.
+  [[nodiscard]] bool is_interrupted() const {
+    return kind == Kind::failed && exit_code == static_cast<int>(ExitCode::interrupted);
+  }
 };
 
 /// What holds for all steps of a run.
@@ -71,6 +78,8 @@ struct RunSettings {
   bool keep_going = false;
   std::filesystem::path pipeline;    ///< the file
   std::vector<std::string> targets;  ///< that were asked for; empty: everything
+  std::string until;                 ///< last stage; empty: all
+  std::vector<std::string> options;  ///< "STAGE.OPTION=VALUE", for this time only
 };
 
 class RunFolder {

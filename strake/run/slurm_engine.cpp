@@ -61,7 +61,8 @@ bool is_covered(const std::string& target, const std::vector<std::string>& asked
 bool is_superseded(const fs::path& run, const RunSettings& by) {
   try {
     const RunSettings settings = RunFolder(run).settings();
-    if (settings.pipeline != by.pipeline) return false;
+    if (settings.pipeline != by.pipeline || settings.options != by.options) return false;
+    if (!by.until.empty() && by.until != settings.until) return false;
     if (by.targets.empty()) return true;
     return !settings.targets.empty() &&
            std::all_of(settings.targets.begin(), settings.targets.end(),
@@ -127,9 +128,15 @@ std::vector<std::string> submit_to_slurm(const fs::path& scripts) {
 void wait_for_slurm(const RunFolder& folder, const std::vector<StepOrder>& orders,
                     const std::function<void()>& idle) {
   const auto all_have_ended = [&] {
-    return std::all_of(orders.begin(), orders.end(), [&](const StepOrder& order) {
+    const auto has_outcome = [&](const StepOrder& order) {
       return fs::exists(folder.outcome_file(order.id));
-    });
+    };
+    // The cluster may start again what it has interrupted; then it is in the queue.
+    const auto is_interrupted = [&](const StepOrder& order) {
+      return folder.outcome(order.id).value_or(StepOutcome{}).is_interrupted();
+    };
+    return std::all_of(orders.begin(), orders.end(), has_outcome) &&
+           std::none_of(orders.begin(), orders.end(), is_interrupted);
   };
   const auto is_queued = [&] {
     const Answer answer = ask_queue();

@@ -28,7 +28,11 @@ std::string checked_sbatch_options(const std::string& text, const Place& place) 
     // A short option may have its value at once: "-d5".
     const bool is_long = word.rfind("--", 0) == 0;
     const std::string option = is_long ? word.substr(0, word.find('=')) : word.substr(0, 2);
-    if (std::find(kOwnOptions.begin(), kOwnOptions.end(), option) != kOwnOptions.end()) {
+    // sbatch takes the beginning of a long one for all of it.
+    const auto is_meant = [&](const std::string& own) {
+      return is_long ? own.rfind(option, 0) == 0 : own == option;
+    };
+    if (std::any_of(kOwnOptions.begin(), kOwnOptions.end(), is_meant)) {
       place.fail(fmt::format("'{}' cannot be set: strake needs it for itself", option));
     }
   }

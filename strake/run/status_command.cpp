@@ -134,7 +134,7 @@ int StatusCommand::run() const {
   std::size_t entries = 0;
   for (const Store::Listed& listed : store.list()) {
     bytes += static_cast<double>(listed.bytes);
-    ++entries;
+    if (listed.entry) ++entries;  // else what a failed step has left
   }
   fmt::print("store {}: {} results, {}\n", store.root().string(), entries, bytes_text(bytes));
   if (verify) refuse_damage(plan, states);

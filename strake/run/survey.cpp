@@ -59,7 +59,10 @@ class Surveyor {
     for (std::size_t s = 0; s < plan_.steps.size(); ++s) look_at(s);
     for (std::size_t s = 0; s < plan_.steps.size(); ++s) {
       if (states_[s].status != StepState::Status::stale) continue;
-      for (const std::size_t part : plan_.steps[s].parts) part_is_needed(part);
+      for (const std::size_t part : plan_.steps[s].parts) {
+        if (states_[s].forced) force_part(part);
+        part_is_needed(part);
+      }
     }
     return std::move(states_);
   }
@@ -103,6 +106,14 @@ class Surveyor {
     if (plan_.steps[s].is_part && states_[s].status == StepState::Status::stale) {
       states_[s].status = StepState::Status::unneeded;
     }
+  }
+
+  /// What makes a result again makes its parts again.
+  void force_part(std::size_t part) {
+    StepState& state = states_[part];
+    state.forced = true;
+    if (state.status == StepState::Status::cached) state.reason = "asked for with --force";
+    state.status = StepState::Status::stale;
   }
 
   void part_is_needed(std::size_t part) {

@@ -191,6 +191,9 @@ TEST_F(Damage, IndicesOutOfRangeAndNumbersThatAreNoneAreRefused) {
   refuses(ArtifactKind::mesh, "/mesh/source_face", 2, H5T_NATIVE_INT32, -2);
   refuses(ArtifactKind::mesh, "/mesh/positions", 7, H5T_NATIVE_DOUBLE, nan);
   refuses(ArtifactKind::mesh, "/mesh/is_corner", 2, H5T_NATIVE_INT32, 2);
+  for (const double diagonal : {-1.0, 0.0, 1e-12, 1e30}) {
+    refuses(ArtifactKind::mesh, "/mesh/diagonal", 0, H5T_NATIVE_DOUBLE, diagonal);
+  }
   refuses(ArtifactKind::tensor, "/tensor/tensor", 4, H5T_NATIVE_DOUBLE, nan);
   refuses(ArtifactKind::field, "/field/k_min", 4, H5T_NATIVE_DOUBLE, 1 / 0.0);
   refuses(ArtifactKind::field, "/field/guide_face", 4, H5T_NATIVE_INT32, values.mesh.face_count());
@@ -321,6 +324,7 @@ TEST_F(Damage, BlocksOfADamagedMeshAreRefused) {
     set_scalar("/mesh/" + name, at, type, value);
     EXPECT_THROW(read(*open_tri_mesh(file("a.hdf"))), InputError) << name;
   };
+  refuses("diagonal", 0, H5T_NATIVE_DOUBLE, -1.0, [](const MeshBlocks& /*mesh*/) {});
   refuses("positions", 7, H5T_NATIVE_DOUBLE, std::nan(""),
           [](const MeshBlocks& mesh) { (void)mesh.positions(5, 10); });
   refuses("wedge_vertex", 7, H5T_NATIVE_INT32, values.mesh.vertex_count(),

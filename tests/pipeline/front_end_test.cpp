@@ -188,8 +188,11 @@ TEST_F(FrontEnd, AFolderIsNotThatOfOtherFiles) {
   const std::string fitted = bytes("kept/fitted.hdf");
   must_fail(kUsage, "strake remesh kept/fitted.hdf -o q.obj --keep kept", "the input");
   must_fail(kUsage, "strake remesh torus.ply -o kept/mesh.hdf --keep kept", "the output");
-  must_fail(kUsage, "strake remesh torus.ply -o q.obj --report kept/trace.json --keep kept",
-            "the report");
+  for (const std::string name : {"trace", "times"}) {
+    must_fail(kUsage,
+              "strake remesh torus.ply -o q.obj --report kept/" + name + ".json --keep kept",
+              "the report");
+  }
   EXPECT_EQ(bytes("kept/fitted.hdf"), fitted);
   std::filesystem::create_directory(file("own"));
   put("own/size.hdf", "mine");

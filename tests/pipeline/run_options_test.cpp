@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <fstream>
 
 #include "common/artifact/digest.h"
@@ -108,6 +109,16 @@ TEST_F(RunOptions, ForceHoldsWhereInputsAreMadeAnewToo) {
   must("strake run -q");
   fs::remove(artifact("torus/import-", "mesh.hdf"));
   EXPECT_EQ(names(run_steps("--force trace"), "ran"), "torus import, torus trace");
+}
+
+TEST_F(RunOptions, ForceOfAWholeIsForItsParts) {
+  put("pipeline.yaml",
+      "version: 1\nmodels: {torus: {sample: {kind: torus, faces: 2000}}}\n"
+      "stages: {import: {}, tensor: {resources: {parts: 2}}, smooth: {}}\n");
+  must("strake run -q");
+  EXPECT_EQ(names(run_steps("--force tensor"), "ran"),
+            "torus tensor, torus tensor-1of2, torus tensor-2of2");
+  EXPECT_EQ(names(run_steps(""), "ran"), "");
 }
 
 TEST_F(RunOptions, ForceWarnsWhereTheBytesDiffer) {
@@ -238,6 +249,18 @@ TEST_F(Failure, StopsAndReturnsTheFailuresExitCode) {
   const Outcome outcome = run("strake run --jobs 2");
   EXPECT_EQ(outcome.exit_code, kBadInput) << outcome.err;
   EXPECT_EQ(steps_in(outcome.out)["z evaluate"], "not run");
+}
+
+TEST_F(Failure, IsNoResult) {
+  run("strake run -q");
+  const auto is_result = [&](const std::string& entry) {
+    return fs::exists(file("store") / entry / "manifest.json");
+  };
+  const std::vector<std::string> all = entries();
+  const std::string expected =
+      std::to_string(std::count_if(all.begin(), all.end(), is_result)) + " results";
+  EXPECT_NE(must("strake status").find(expected), std::string::npos) << expected;
+  EXPECT_NE(must("strake gc --older-than 1d").find(expected), std::string::npos) << expected;
 }
 
 TEST_F(Failure, KeepGoingRunsWhatDoesNotDependOnIt) {

@@ -51,6 +51,7 @@ class Remesh(unittest.TestCase):
         self.assertEqual(2 * (len(vertices) + len(faces)), len(faces.corners))
         self.assertEqual([list(face) for face in faces][3], list(faces[3]))
         self.assertEqual(len(faces[-1]), faces.sizes[-1])
+        self.assertEqual([list(face) for face in faces[2:5]], [list(faces[f]) for f in (2, 3, 4)])
         self.assertEqual(faces.quads.shape, (np.count_nonzero(faces.sizes == 4), 4))
         self.assertGreater(len(faces.quads), 0.9 * len(faces))
         np.testing.assert_array_equal(faces.quads[0], next(f for f in faces if len(f) == 4))
@@ -227,6 +228,10 @@ class Errors(unittest.TestCase):
         strake.import_mesh(vertices, faces.astype(float))
         self.raises(strake.InputError, "no positive number",
                     lambda: strake.remesh(vertices, faces, density=0 * vertices[:, 0]))
+        self.raises(strake.InputError, "density: there are no numbers",
+                    lambda: strake.remesh(vertices, faces, density=[]))
+        self.raises(strake.InputError, "texture: some coordinates",
+                    lambda: strake.polygons(vertices, faces, texture=np.full((faces.size, 2), np.nan)))
         one, other = strake.import_mesh(vertices, faces), strake.import_mesh(2 * vertices, faces)
         self.raises(strake.PreconditionError, "another mesh",
                     lambda: strake.smooth(one, strake.tensor(other)))
@@ -252,6 +257,10 @@ class Errors(unittest.TestCase):
                 ("mesh is a ndarray", lambda: strake.tensor(vertices)),
                 ("lines is a TriMesh", lambda: strake.line_points(mesh, mesh)),
                 ("labels is a list", lambda: strake.polygons(vertices, faces, labels=[1])),
+                ("a name of labels is a int",
+                 lambda: strake.polygons(vertices, faces, labels={3: [0] * len(faces)})),
+                ("labels 'm': some are no text",
+                 lambda: strake.polygons(vertices, faces, labels={"m": np.array([b"\xff"] * len(faces))})),
                 ("faces are neither", lambda: strake.polygons(vertices, 7)),
                 ("faces: numbers", lambda: strake.polygons(vertices, faces.astype(str))),
                 ("vertices: numbers", lambda: strake.polygons("none", faces)),
@@ -285,6 +294,7 @@ class Errors(unittest.TestCase):
         red = strake.polygons(vertices, faces, colours=[[1, 0, 0]] * len(vertices)).colours
         self.assertEqual(red[0].tolist(), [1, 0, 0, 1])
         for wrong, part in ((shades, "of uint8 alone"), (-shades, "of uint8 alone"),
+                            (shades * 1.0, "beyond 0 and 1"), (shades / -255, "beyond 0 and 1"),
                             (shades * np.nan, "finite"), (shades + np.inf, "finite")):
             self.raises(strake.InputError, part,
                         lambda: strake.polygons(vertices, faces, colours=wrong))

@@ -211,6 +211,7 @@ class SlurmTest:
         self.call([self.strake, "run", "--jobs", "2", "--quiet"], self.reference)
         self.refusals()
         self.earlier_submissions()
+        self.interrupted_and_waited_for()
         self.submitted_run()
         self.scripts_by_hand()
 
@@ -232,20 +233,25 @@ class SlurmTest:
         check(not self.queue(), "what was refused is in the queue")
 
     def earlier_submissions(self):
-        """What waits is cancelled by a submission of the same targets, and by no other."""
+        """What waits is cancelled by a submission of all that it is for, and by no other."""
         folder = self.pipeline("targets")
         submit = [self.strake, "submit", "--until", "import"]
         with held(self.entry_like(folder, "part", "sample")):
             self.call([*submit, "part"], folder)
             wait_for("a step at the lock", lambda: waiting_step(runs_in(folder)[0]))
-            for other in ("torus", "part/seed-1"):
-                answer = self.call([*submit, other], folder)
+            for other in (["torus"], ["part/seed-1"], ["part", "--set", "import.feature-angle=33"]):
+                answer = self.call([*submit, *other], folder)
                 check("cancelled" not in answer, f"for {other}: {answer}")
+            self.call([self.strake, "submit", "--until", "tensor", "--set", "tensor.radius=2%",
+                       "saddle"], folder)
+            answer = self.call([*submit, "--set", "tensor.radius=2%", "saddle"], folder)
+            check("cancelled" not in answer, f"up to an earlier stage: {answer}")
+            before = len(runs_in(folder))
             waiting = subprocess.Popen([*submit, "--wait", "part", "torus"], cwd=folder,
                                        env=self.environment, stdin=subprocess.DEVNULL,
                                        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-            wait_for("the jobs of the last one", lambda: len(runs_in(folder)) == 4 and self.queue(
-                "--states=PENDING", "--name=" + self.job_name(runs_in(folder)[3], "import")))
+            wait_for("the jobs of the last one", lambda: len(runs_in(folder)) > before and self.queue(
+                "--states=PENDING", "--name=" + self.job_name(runs_in(folder)[-1], "import")))
             # An interrupt of what submits would take the jobs back.
             wait_for("the end of the submission", lambda: subprocess.run(
                 ["pgrep", "-P", str(waiting.pid)], stdout=subprocess.DEVNULL, check=False).returncode)
@@ -257,6 +263,22 @@ class SlurmTest:
         wait_for("an empty queue", lambda: not self.queue())
         answer = self.call([*submit, "part", "torus"], folder)
         check(answer.startswith("0 steps"), f"the jobs did not go on: {answer}")
+
+    def interrupted_and_waited_for(self):
+        """What the cluster stops and starts again has not ended."""
+        folder = self.pipeline("preempted")
+        with held(self.entry_like(folder, "torus", "import")):
+            waiting = subprocess.Popen([self.strake, "submit", "--wait", "--until", "import", "torus"],
+                                       cwd=folder, env=self.environment, stdin=subprocess.DEVNULL,
+                                       stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+            run = wait_for("a run", lambda: runs_in(folder))[0]
+            step = wait_for("a step at the lock", lambda: waiting_step(run))
+            self.call(["scontrol", "requeue", step.task], folder)
+            wait_for("its interruption", lambda: outcomes_of(run).get(step.id))
+            check(outcomes_of(run)[step.id]["exit_code"] == 130, f"{outcomes_of(run)}")
+        wait_for("an empty queue", lambda: not self.start_requeued())
+        answer = waiting.communicate(timeout=PATIENCE_SECONDS)[0]
+        check(waiting.returncode == 0 and "torus import: ran" in answer, answer)
 
     def submitted_run(self):
         folder = self.pipeline("cluster", broken=True)

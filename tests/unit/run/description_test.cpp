@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/core/error.h"
+#include "strake/run/run_paths.h"
 #include "tests/unit/run/pipeline_file.h"
 
 namespace strake::run_test {
@@ -58,6 +59,8 @@ const Fault kFaults[] = {
     {"FolderAsFile", "version: 1\nmodels: [.]\n", "2:10: ", "there is no file"},
     {"PatternWithoutMatch", "version: 1\nmodels: ['*.stl']\n", "2:10: ", "no file matches"},
     {"PatternWithAName", "version: 1\nmodels: {x: '*.obj'}\n", "2:13: ", "no single name"},
+    {"NoVariantOfAModel", "version: 1\nmodels: {x: {file: a.obj, variants: []}}\n",
+     "2:37: ", "there is no variant"},
     {"SameModelTwice", "version: 1\nmodels: [a.obj, a.obj]\n", "2:17: ", "two models 'a'; name"},
     {"DuplicateModel", "version: 1\nmodels:\n  x: a.obj\n  x: b.ply\n", "4:3: ", "line 3 already"},
     {"SlashInName", "version: 1\nmodels: {x/y: a.obj}\n", "2:15: ", "cannot be a name"},
@@ -312,9 +315,21 @@ TEST_F(GoodPipeline, MarksInTheFoldersNameAreNoPattern) {
   EXPECT_EQ(description.models[0].file, folder_ / "old [1]*" / "a.obj");
 }
 
-/// Ninja and Slurm take them for the end of what they are told.
-TEST_F(GoodPipeline, LineBreaksInTheFoldersNameAreRefused) {
-  for (const std::string name : {"two\nlines", "a\ttab", "a\x7f"}) {
+/// The system follows a link before it goes a folder up.
+TEST_F(GoodPipeline, DotsAreTakenAsTheSystemTakesThem) {
+  fs::create_directories(folder_ / "real" / "sub");
+  fs::create_directory_symlink("real/sub", folder_ / "link");
+  put("real/a.obj", "v 1 2 3\n");
+  const Description description =
+      describe("version: 1\nmodels: {x: link/../a.obj, y: real/../a.obj}\n");
+  EXPECT_TRUE(fs::equivalent(description.models[0].file, folder_ / "real" / "a.obj"));
+  EXPECT_EQ(description.models[1].file, folder_ / "a.obj");
+  EXPECT_EQ(without_dots("/nowhere/at/../all/./x"), "/nowhere/all/x");
+}
+
+/// Ninja and Slurm take line breaks for the end of what they are told; JSON has only UTF-8.
+TEST_F(GoodPipeline, FoldersWhoseNamesCannotBeWrittenAreRefused) {
+  for (const std::string name : {"two\nlines", "a\ttab", "a\x7f", "not UTF-8 \xff"}) {
     fs::create_directory(folder_ / name);
     put(name + "/pipeline.yaml", "version: 1\nmodels: ['../a.obj']\n");
     try {
@@ -322,8 +337,9 @@ TEST_F(GoodPipeline, LineBreaksInTheFoldersNameAreRefused) {
       ADD_FAILURE() << name;
     } catch (const UsageError& error) {
       const std::string said = error.what();
-      EXPECT_NE(said.find("control characters"), std::string::npos) << said;
-      EXPECT_EQ(said.find(name), std::string::npos) << said;
+      EXPECT_NE(said.find(" characters "), std::string::npos) << said;
+      EXPECT_NE(said.find("rename it"), std::string::npos) << said;
+      EXPECT_EQ(said.find('\n'), std::string::npos) << said;
     }
   }
 }

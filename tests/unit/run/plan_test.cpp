@@ -191,6 +191,16 @@ TEST_F(PlanTest, OutputsGoToTheStepThatGivesThem) {
   EXPECT_EQ(step(made, "a.evaluate").deliver_to, std::vector<std::string>{file("x.json")});
 }
 
+TEST_F(PlanTest, AnOutputIsNotThePipeline) {
+  put("p.json", R"({"version": 1, "models": ["a.obj"], "outputs": {"report": "p.json"}})");
+  try {
+    make_plan(read_description(folder_ / "p.json"), {});
+    ADD_FAILURE() << "was accepted";
+  } catch (const UsageError& error) {
+    EXPECT_NE(std::string(error.what()).find("is the pipeline file"), std::string::npos);
+  }
+}
+
 TEST_F(PlanTest, LinksToAModelAreTheModel) {
   std::filesystem::create_symlink(".", folder_ / "self");
   std::filesystem::create_symlink("a.obj", folder_ / "link.obj");

@@ -48,6 +48,8 @@ TEST(Resources, NeedsGrowWithTheFacesAndStayANumber) {
   EXPECT_EQ(needs.time(50, 10), 36);
   const Resources absurd = {1e18, 1e18, 0, 0, 0, 1e18, 0};
   EXPECT_GT(absurd.memory(1e9, 1e9), 0);
+  const Resources endless = {0, 0, 1e18, 1e18, 0, 0, 1e18};
+  EXPECT_LE(endless.time(1e9, 1e9), 1e18);
 }
 
 /// Measured on a model of 11,092 faces, for a count and within a tolerance.

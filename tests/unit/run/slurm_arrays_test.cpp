@@ -133,6 +133,12 @@ TEST(SlurmArrays, ASlowModelGetsItsTime) {
   expect_sound(orders, slurm_arrays(orders));
 }
 
+TEST(SlurmArrays, AnEndlessModelGetsSomeTime) {
+  std::vector<StepOrder> orders = steps_of_models(1);
+  orders[0].seconds = 1e18;
+  expect_sound(orders, slurm_arrays(orders));
+}
+
 TEST(SlurmArrays, WhatIsInTheStoreIsNotWaitedFor) {
   std::vector<StepOrder> orders = steps_of_models(4);
   // Import and tensors of model 2 are in the store.
@@ -165,15 +171,17 @@ TEST(SlurmArrays, ThreadsAreAskedFor) {
 }
 
 TEST(SlurmOptions, AreTakenAsTheyStand) {
-  for (const char* text : {"--partition=long --account=geometry", "-p long", "--comment=\"a b\""}) {
+  for (const char* text : {"--partition=long --account=geometry", "-p long", "--comment=\"a b\"",
+                           "--wait-all-nodes=1", "--open-mode=append"}) {
     EXPECT_EQ(checked_sbatch_options(text, {}), text);
   }
 }
 
 TEST(SlurmOptions, ThoseThatTheRunHangsOnAreRefusedWithTheirPlace) {
   const Place place{"pipeline.yaml", 7, 3};
-  for (const char* text : {"", "long", "--mem=1G\nrm", "--array=1-3",
-                           "--nice --dependency=singleton", "-a1", "--chdir /tmp", "-D /tmp"}) {
+  for (const char* text :
+       {"", "long", "--mem=1G\nrm", "--array=1-3", "--nice --dependency=singleton", "-a1",
+        "--chdir /tmp", "-D /tmp", "--arr=7", "--depend=singleton", "--ou=x"}) {
     try {
       checked_sbatch_options(text, place);
       ADD_FAILURE() << text;

@@ -12,6 +12,7 @@
 #include "common/core/error.h"
 #include "common/geometry/line_chord.h"
 #include "common/geometry/topology/topology.h"
+#include "common/geometry/topology/vertex_ring.h"
 #include "tests/support/chain.h"
 #include "tests/support/mesh_support.h"
 #include "tests/support/models.h"
@@ -343,6 +344,46 @@ TEST(Trace, NoLineEndsAtAFeatureThatIsLeftOut) {
     ASSERT_FALSE(is_of_features(l)) << "all are to be left out";
     EXPECT_NE(lines.start_reason[l], LineEnd::feature);
     EXPECT_NE(lines.end_reason[l], LineEnd::feature);
+  }
+}
+
+/// A crease across the middle of a plane that ends inside of it, with a corner at every vertex.
+support::Prepared plane_with_free_crease(double length) {
+  support::Prepared plane = plane_along_x(8000);
+  TriMesh& mesh = plane.mesh;
+  const auto ahead = [&](Index h) { return mesh.positions[mesh.to(h)].x(); };
+  const auto distance = [&](Index v) {
+    return (mesh.positions[v] + length / 2 * Vec3::UnitX()).norm();
+  };
+  Index v = 0;
+  for (Index other = 1; other < mesh.vertex_count(); ++other) {
+    if (distance(other) < distance(v)) v = other;
+  }
+  while (mesh.positions[v].x() < length / 2) {
+    Index best = mesh.vertex_out[v];
+    for_each_outgoing(mesh, v, [&](Index h) {
+      if (ahead(h) > ahead(best)) best = h;
+    });
+    mesh.is_feature[best] = mesh.is_feature[mesh.twin[best]] = 1;
+    mesh.is_corner[v] = 1;
+    v = mesh.to(best);
+  }
+  mesh.is_corner[v] = 1;
+  build_wedges(mesh);
+  plane.field = field_along(mesh, [](const Vec3&) { return Vec3::UnitX(); });
+  return plane;
+}
+
+TEST(Trace, CornersMakeAFreeCreaseNoShorter) {
+  TraceOptions options;
+  options.vertices = 250;
+  for (const double length : {0.25, 1.6}) {
+    const support::Prepared plane = plane_with_free_crease(length);
+    const auto edges = std::ranges::count(plane.mesh.is_feature, 1) / 2;
+    ASSERT_GT(edges, 3);
+    const LineSet lines = support::trace(plane, options);
+    const auto kept = std::ranges::count(lines.family, LineFamily::feature);
+    EXPECT_EQ(kept, length > 1 ? edges : 0) << length;
   }
 }
 
