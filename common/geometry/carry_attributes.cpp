@@ -89,12 +89,47 @@ void add_weighted(std::array<double, N>& sum, double weight, const std::array<do
   for (std::size_t k = 0; k < N; ++k) sum[k] += weight * value[k];
 }
 
-/// What most votes are for; of equals the least.
-Index most_frequent(const std::vector<Index>& votes) {
+/// What most votes are for; of equals what most further ones are for, and then the least.
+template <class FurtherVotes>
+Index most_frequent(const std::vector<Index>& votes, const FurtherVotes& further_votes) {
   std::map<Index, int> counts;
   for (const Index vote : votes) ++counts[vote];
   const auto fewer = [](const auto& a, const auto& b) { return a.second < b.second; };
+  const int most = std::max_element(counts.begin(), counts.end(), fewer)->second;
+  std::erase_if(counts, [&](const auto& label) { return label.second < most; });
+  if (counts.size() > 1) {
+    for (const Index vote : further_votes()) {
+      if (const auto label = counts.find(vote); label != counts.end()) ++label->second;
+    }
+  }
   return std::max_element(counts.begin(), counts.end(), fewer)->first;
+}
+
+/// The triangle that a straight way along the surface from one leads to, towards the foot of a
+/// point; the last one where it ends at a boundary, or turns back.
+Index walk_towards(const TriMesh& mesh, Index face, const Vec3& p) {
+  constexpr int kMostSteps = 1000;
+  Index before = kNone;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const auto& [a, b, c] = mesh.faces[face];
+    const std::array<Vec3, 3> at = {mesh.positions[a], mesh.positions[b], mesh.positions[c]};
+    const Vec3 normal = (at[1] - at[0]).cross(at[2] - at[0]);
+    Index out = kNone;
+    double least = 0;
+    for (int i = 0; i < 3; ++i) {  // the side that the foot is farthest beyond, if any
+      const double inside = normal.cross(at[(i + 1) % 3] - at[i]).stableNormalized().dot(p - at[i]);
+      if (inside < least) {
+        least = inside;
+        out = 3 * face + i;
+      }
+    }
+    if (out == kNone || mesh.twin[out] == kNone) return face;
+    const Index next = TriMesh::face_of(mesh.twin[out]);
+    if (next == before) return face;
+    before = face;
+    face = next;
+  }
+  return face;
 }
 
 /// Carries attributes of faces and their corners.
@@ -102,7 +137,11 @@ class FaceCarrier {
  public:
   FaceCarrier(const TriMesh& mesh, const PolyMesh& result, const VertexProvenance& places,
               Attributes& attributes)
-      : from_(mesh.attributes), to_(attributes), result_(result), places_(mesh, result, places) {
+      : mesh_(mesh),
+        from_(mesh.attributes),
+        to_(attributes),
+        result_(result),
+        places_(mesh, result, places) {
     for (const FaceLabels& labels : from_.labels) {
       to_.labels.push_back({labels.name, {}, labels.names});
     }
@@ -115,14 +154,17 @@ class FaceCarrier {
       for (std::vector<Index>& of_kind : *votes) of_kind.clear();
     }
     const auto face = result_.face(f);
+    starts_.clear();
     for (int i = 0; i < static_cast<int>(face.size()); ++i) {
       places_.find(face[i], found_);
       const SurfacePoint& place = places_.choose(f, i, found_);
+      starts_.push_back(place.face);
       if (!from_.texture.empty()) add_texture(place);
       for (std::size_t k = 0; k < from_.labels.size(); ++k) vote(k, place);
     }
     for (std::size_t k = 0; k < from_.labels.size(); ++k) {
-      to_.labels[k].of_face.push_back(most_frequent(sure_[k].empty() ? chosen_[k] : sure_[k]));
+      to_.labels[k].of_face.push_back(most_frequent(sure_[k].empty() ? chosen_[k] : sure_[k],
+                                                    [&] { return labels_below(f, k); }));
     }
   }
 
@@ -143,11 +185,25 @@ class FaceCarrier {
     if (is_sure) sure_[kind].push_back(own);
   }
 
+  /// Labels below the middle of a face, found from each of its corners.
+  [[nodiscard]] std::vector<Index> labels_below(Index f, std::size_t kind) const {
+    const auto face = result_.face(f);
+    Vec3 middle = -mesh_.origin;
+    for (const Index v : face) middle += result_.positions[v] / static_cast<double>(face.size());
+    std::vector<Index> labels;
+    for (const Index start : starts_) {
+      labels.push_back(from_.labels[kind].of_face[walk_towards(mesh_, start, middle)]);
+    }
+    return labels;
+  }
+
+  const TriMesh& mesh_;
   const Attributes& from_;
   Attributes& to_;
   const PolyMesh& result_;
   CornerPlaces places_;
   std::vector<SurfacePoint> found_;
+  std::vector<Index> starts_;             ///< triangles of the corners of the present face
   std::vector<std::vector<Index>> sure_;  ///< votes for labels of each kind
   std::vector<std::vector<Index>> chosen_;
 };

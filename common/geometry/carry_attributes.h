@@ -12,7 +12,8 @@ namespace strake {
 ///   corner lies: where the vertex is on an edge or vertex of the surface, that is the one on the
 ///   face's side, by the direction of the corner's bisector. So both sides of a seam keep theirs.
 /// - A face has the label of most of its corners; those count that leave no doubt, because all
-///   triangles there have the same, and where there are none the triangles on the face's side.
+///   triangles there have the same, and where there are none the triangles on the face's side. Of
+///   equals it is the one below the middle of the face.
 ///
 /// A face that lies across a seam or a border of labels cannot be right; lines of the trace stage
 /// run along these where they are feature edges.

@@ -9,7 +9,7 @@ namespace strake {
 Stage decimate_stage() {
   Stage stage;
   stage.name = "decimate";
-  stage.version = 5;
+  stage.version = 6;
   stage.summary = "Makes a mesh by decimation, for counts too small for lines.";
   stage.inputs = {{"mesh", PortKind::mesh, "mesh artifact"}};
   stage.output = {"decimated", PortKind::quads, "result to write: .hdf, .obj, .ply or .off"};

@@ -9,7 +9,7 @@ namespace strake {
 Stage fit_stage() {
   Stage stage;
   stage.name = "fit";
-  stage.version = 30;
+  stage.version = 31;
   stage.summary = "Moves vertices of a result so that its faces lie nearer to the surface.";
   stage.inputs = {{"mesh", PortKind::mesh, "mesh artifact"},
                   {"quads", PortKind::quads, "quads artifact of that mesh"},

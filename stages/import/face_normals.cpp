@@ -15,17 +15,46 @@ double longest_edge(const TriMesh& mesh, Index f) {
       {edge_length(mesh, 3 * f), edge_length(mesh, 3 * f + 1), edge_length(mesh, 3 * f + 2)});
 }
 
-/// Height from which on the normal of any face is trusted: rounding moves a corner by up to a unit
-/// in the last place of single precision, so the normal by about 1/20 at most.
-double trusted_height(const TriMesh& mesh) {
+/// Whether something holds of all coordinates of the file.
+template <class Test>
+bool all_coordinates(const TriMesh& mesh, Test test) {
+  return std::ranges::all_of(mesh.positions, [&](const Vec3& p) {
+    const Vec3 at = p + mesh.origin;
+    return test(at.x()) && test(at.y()) && test(at.z());
+  });
+}
+
+/// What rounding may have moved corners by, model units: a unit in the last place of single
+/// precision, of the coordinates in the file. Where these have the digits to lie far from the
+/// origin, that of the extent: so they do after a mesh was moved there.
+double rounding_error(const TriMesh& mesh) {
   constexpr double kSinglePrecision = 1.2e-7;
-  constexpr double kHeightPerError = 20;
+  constexpr double kDoublePrecision = 2.3e-16;
+  constexpr double kWritten = 1e-9;  // what nine digits leave of a number of single precision
+  constexpr double kNear = 30;       // diagonals, of which the error is a millionth there
   double largest = 0;
   for (const Vec3& p : mesh.positions) {
     largest = std::max(largest, (p + mesh.origin).cwiseAbs().maxCoeff());
   }
-  return kHeightPerError * kSinglePrecision * largest;
+  const double single = kSinglePrecision * largest;
+  if (largest <= kNear * mesh.diagonal) return single;
+  const double moved = 2 * kDoublePrecision * largest;  // by taking the origin off
+  const auto is_single = [&](double x) {
+    return std::abs(x - static_cast<float>(x)) <= kWritten * std::abs(x) + moved;
+  };
+  if (all_coordinates(mesh, is_single)) return single;
+  const double least = std::max(kSinglePrecision * mesh.diagonal, 4 * moved);
+  for (double step = std::pow(10, std::floor(std::log10(single))); step > least; step /= 10) {
+    const auto is_decimal = [&](double x) {
+      return std::abs(x - step * std::round(x / step)) <= 1e-6 * step + moved;
+    };
+    if (all_coordinates(mesh, is_decimal)) return step;
+  }
+  return std::min(single, least);
 }
+
+/// Height from which on the normal of any face is trusted: rounding turns it by about 1/20 then.
+double trusted_height(const TriMesh& mesh) { return 20 * rounding_error(mesh); }
 
 /// Hands normals on to neighbours without one, breadth-first; only across edges at least `share`
 /// times as long as the longest of the receiving face.

@@ -14,7 +14,7 @@ constexpr double kWindow = 0.01;       ///< of the diagonal, on each side of a v
 constexpr double kSmoothBoundary = 3;  ///< least window along a boundary, mean edges
 constexpr double kRaggedBoundary =
     10;  ///< the same where single edges turn by 40 degrees on average
-constexpr double kLoopShare = 1.0 / 12;  ///< largest window on a closed line
+constexpr double kLineShare = 1.0 / 12;  ///< largest window on a closed or boundary line
 constexpr double kSmallestHole = 0.04;   ///< of the diagonal: length of a boundary with corners
 
 /// A maximal run of feature or boundary edges through vertices where just two of them meet.
@@ -94,7 +94,7 @@ class TurnMeter {
     }
     window_ = kWindow * mesh.diagonal;
     if (line.is_boundary) window_ = std::max(window_, ragged_edges() * length_ / count_);
-    if (line.is_closed) window_ = std::min(window_, kLoopShare * length_);
+    if (line.is_closed || line.is_boundary) window_ = std::min(window_, kLineShare * length_);
   }
 
   [[nodiscard]] bool can_have_corners() const {

@@ -22,7 +22,6 @@
 #include "stages/import/facets.h"
 #include "stages/import/feature_graph.h"
 #include "stages/import/feature_noise.h"
-#include "stages/import/listed_edges.h"
 #include "stages/import/shallow_creases.h"
 #include "stages/import/sharp_points.h"
 
@@ -341,8 +340,8 @@ void find_facets(TriMesh& mesh, double height, FeatureCounts& counts) {
 }
 
 /// Makes borders of attributes features where the rules want them, and then those listed.
-void flag_borders_and_listed_edges(const FeatureRules& rules, const PolyMesh& input,
-                                   const EdgeList* listed, TriMesh& mesh, FeatureCounts& counts) {
+void flag_borders_and_listed_edges(const FeatureRules& rules, const ListedEdges* listed,
+                                   TriMesh& mesh, FeatureCounts& counts) {
   std::vector<Index> borders;
   std::vector<Index> seams;
   const MirrorLines mirrors(mesh);
@@ -360,7 +359,7 @@ void flag_borders_and_listed_edges(const FeatureRules& rules, const PolyMesh& in
     if (rules.labels) std::erase_if(seams, [&](Index h) { return is_label_border(mesh, h); });
     counts.seam_edges = flag(seams);
   }
-  if (listed != nullptr) counts.listed_edges = flag_listed_edges(*listed, input, mesh);
+  if (listed != nullptr) counts.listed_edges = listed->flag(mesh);
   const auto open = [&](const std::vector<Index>& edges) {
     return static_cast<Index>(
         std::ranges::count_if(edges, [&](Index h) { return mesh.is_feature[h] == 0; }));
@@ -371,14 +370,13 @@ void flag_borders_and_listed_edges(const FeatureRules& rules, const PolyMesh& in
 
 }  // namespace
 
-FeatureCounts find_features(TriMesh& mesh, const FeatureRules& rules, const PolyMesh& input,
-                            const EdgeList* listed) {
+FeatureCounts find_features(TriMesh& mesh, const FeatureRules& rules, const ListedEdges* listed) {
   FeatureCounts counts;
   mesh.is_feature.assign(mesh.halfedge_count(), 0);
   if (rules.angle_deg < 180) find_creases(mesh, rules.angle_deg, rules.all_creases, counts);
   if (std::isfinite(rules.height)) find_ridges(mesh, rules.height, counts);
   if (std::isfinite(rules.facet_height)) find_facets(mesh, rules.facet_height, counts);
-  flag_borders_and_listed_edges(rules, input, listed, mesh, counts);
+  flag_borders_and_listed_edges(rules, listed, mesh, counts);
   counts.edges =
       static_cast<Index>(std::count(mesh.is_feature.begin(), mesh.is_feature.end(), 1) / 2);
   counts.corners = find_corners(mesh);

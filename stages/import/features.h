@@ -2,9 +2,8 @@
 
 #include <limits>
 
-#include "common/core/edge_list.h"
-#include "common/core/poly_mesh.h"
 #include "common/core/tri_mesh.h"
+#include "stages/import/listed_edges.h"
 
 namespace strake::import {
 
@@ -69,14 +68,13 @@ struct FeatureCounts {
 ///
 /// Corners are the vertices where other than two feature or boundary edges meet, or where such a
 /// line turns by more than 50 degrees, measured over 1 % of the diagonal on each side (along a
-/// boundary at least three mean edges, ten where it is ragged, at most a twelfth of a closed line)
-/// and only where it turns most. Closed boundaries shorter than 4 % of the diagonal have no corners
-/// by turning. Tips of cones are corners without lines, where there are creases at all.
+/// boundary at least three mean edges, ten where it is ragged, at most a twelfth of a closed line
+/// or a boundary) and only where it turns most. Closed boundaries shorter than 4 % of the diagonal
+/// have no corners by turning. Tips of cones are corners without lines, where there are creases at
+/// all.
 ///
-/// \param input   what the mesh was made from, whose vertices the list names
 /// \param listed  edges that are features too; nullptr for none
 /// \pre build_topology has run
-FeatureCounts find_features(TriMesh& mesh, const FeatureRules& rules, const PolyMesh& input,
-                            const EdgeList* listed);
+FeatureCounts find_features(TriMesh& mesh, const FeatureRules& rules, const ListedEdges* listed);
 
 }  // namespace strake::import

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <set>
 #include <utility>
 
 #include "common/core/disjoint_sets.h"
@@ -31,24 +32,44 @@ class FlatFaceRemover {
         ++repairs_.collapsed_edges;
       }
     }
-    // A flip may leave a flat neighbour that can be flipped in turn; each makes some shape better.
-    constexpr int kRounds = 10;
-    bool has_changed = true;
-    for (int round = 0; round < kRounds && has_changed; ++round) {
-      has_changed = false;
-      for (Index f = 0; f < soup_.face_count(); ++f) {
-        if (removed_[f] != 0 || shape(soup_.faces[f]) > kFlat || !try_flip(longest_edge(f))) {
-          continue;
-        }
-        ++repairs_.flipped_edges;
-        has_changed = true;
-      }
+    // Flips end, as each makes the worse of two shapes better.
+    while (flip_round()) {
     }
   }
 
   [[nodiscard]] const std::vector<std::uint8_t>& removed() const { return removed_; }
 
  private:
+  /// Flips all flat faces that can be flipped, again and again where flips beside allow it.
+  /// \return whether there were any: they may allow others, where an edge is gone that was in the way
+  bool flip_round() {
+    std::set<Index> open;
+    for (Index f = 0; f < soup_.face_count(); ++f) add_flat(f, open);
+    bool any = false;
+    for (Index last = 0; !open.empty();) {  // in order, and once more around
+      auto next = open.lower_bound(last);
+      if (next == open.end()) next = open.begin();
+      const Index f = last = *next;
+      open.erase(next);
+      const Index h = longest_edge(f);
+      const Index t = twin_[h];
+      if (!try_flip(h)) continue;
+      ++repairs_.flipped_edges;
+      any = true;
+      for (const Index face : {f, t / 3}) {
+        add_flat(face, open);
+        for (Index e = 3 * face; e < 3 * face + 3; ++e) {
+          if (twin_[e] != kNone) add_flat(twin_[e] / 3, open);
+        }
+      }
+    }
+    return any;
+  }
+
+  void add_flat(Index f, std::set<Index>& faces) const {
+    if (removed_[f] == 0 && shape(soup_.faces[f]) <= kFlat) faces.insert(f);
+  }
+
   [[nodiscard]] const Vec3& position(Index v) const { return soup_.positions[v]; }
   [[nodiscard]] double length(Index h) const {
     return (position(soup_.to(h)) - position(soup_.from(h))).norm();
@@ -150,7 +171,9 @@ class FlatFaceRemover {
     removed_[h / 3] = 1;
   }
 
-  /// Replaces edge h by the other diagonal of its two faces.
+  /// Replaces edge h by the other diagonal of its two faces. What these carry is that of the other
+  /// face, which has all of the area.
+  /// \pre the face of h is flat, and h its longest edge
   bool try_flip(Index h) {
     const Index t = twin_[h];
     if (t == kNone) return false;
@@ -171,6 +194,7 @@ class FlatFaceRemover {
     const std::array<Index, 4> beyond = {twin_[TriMesh::next(h)], twin_[TriMesh::prev(h)],
                                          twin_[TriMesh::next(t)], twin_[TriMesh::prev(t)]};
     if (!soup_.texture.empty()) flip_texture(h, t);
+    soup_.source_face[h / 3] = soup_.source_face[t / 3];
     const Index f = 3 * (h / 3);
     const Index g = 3 * (t / 3);
     soup_.faces[f / 3] = first;
@@ -183,15 +207,20 @@ class FlatFaceRemover {
     return true;
   }
 
-  /// What `try_flip` does to the corners of two faces. Of the two sides of the edge that goes, the
-  /// one without area hardly counts.
+  /// What `try_flip` does to the corners of two faces: that of the apex, which lies on the edge
+  /// that goes, gets what the other face has there.
   void flip_texture(Index h, Index t) {
     const auto at = [&](Index corner) { return soup_.texture[corner / 3][corner % 3]; };
-    const std::array<TexturePoint, 3> first = {at(TriMesh::prev(h)), at(TriMesh::prev(t)), at(t)};
-    const std::array<TexturePoint, 3> second = {at(TriMesh::prev(t)), at(TriMesh::prev(h)),
-                                                at(TriMesh::next(t))};
-    soup_.texture[h / 3] = first;
-    soup_.texture[t / 3] = second;
+    const Vec3 edge = position(soup_.to(t)) - position(soup_.from(t));
+    const Vec3 way = position(soup_.from(TriMesh::prev(h))) - position(soup_.from(t));
+    const double share = std::clamp(way.dot(edge) / edge.squaredNorm(), 0.0, 1.0);
+    const TexturePoint from = at(t);
+    const TexturePoint to = at(TriMesh::next(t));
+    const TexturePoint apex = {(1 - share) * from[0] + share * to[0],
+                               (1 - share) * from[1] + share * to[1]};
+    const TexturePoint other = at(TriMesh::prev(t));
+    soup_.texture[h / 3] = {apex, other, from};
+    soup_.texture[t / 3] = {other, apex, to};
   }
 
   void link(Index h, Index t) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "common/geometry/topology/topology.h"
 #include "stages/import/assemble.h"
 #include "stages/import/carry.h"
+#include "stages/import/copied_pieces.h"
 #include "stages/import/divide_long_edges.h"
 #include "stages/import/features.h"
 #include "stages/import/flat_faces.h"
@@ -242,17 +244,31 @@ void warn_of_steps(const TriMesh& mesh, const FeatureCounts& counts, Report& rep
       "features; --denoise 20 takes them off");
 }
 
-/// Creases are held where noise leaves them to be seen, and those of a grid are none.
-void take_noise_off(TriMesh& mesh, const ImportOptions& options, const PolyMesh& soup,
+FeatureRules feature_rules(const ImportOptions& options, double diagonal) {
+  const auto wants = [&](const char* kind) {
+    return options.attribute_features == "all" || options.attribute_features == kind;
+  };
+  const auto height = [&](const std::optional<Length>& length) {
+    return length ? length->resolve(diagonal) : std::numeric_limits<double>::infinity();
+  };
+  return {.angle_deg = options.feature_angle_deg,
+          .all_creases = options.all_creases,
+          .height = height(options.feature_height),
+          .facet_height = height(options.facet_height),
+          .labels = wants("labels"),
+          .seams = wants("seams")};
+}
+
+/// Listed edges are held, and creases where noise leaves them to be seen; those of a grid are none.
+void take_noise_off(TriMesh& mesh, const ImportOptions& options, const import::ListedEdges* listed,
                     Report& report) {
   /// Share of the diagonal that noise is hardly larger than on a surface that is not rough.
   constexpr double kFar = 0.01;
   const bool is_rough = import::measure_noise(mesh).is_much() || import::has_voxel_steps(mesh);
-  if (!is_rough) {
-    const FeatureRules creases = {
-        .angle_deg = options.feature_angle_deg, .labels = false, .seams = false};
-    import::find_features(mesh, creases, soup, nullptr);
-  }
+  FeatureRules rules =
+      is_rough ? FeatureRules{.angle_deg = 180} : feature_rules(options, mesh.diagonal);
+  rules.labels = rules.seams = false;
+  import::find_features(mesh, rules, listed);
   const import::Moves moves = import::take_noise_off(mesh, options.denoise);
   report.set("noise.moved_rms_share", moves.rms / mesh.diagonal);
   report.set("noise.moved_largest_share", moves.largest / mesh.diagonal);
@@ -283,21 +299,6 @@ void report_orientation(const TriMesh& mesh, const Census& counts, Report& repor
                                : fmt::format("{} of {} components are inside out: their faces look",
                                              closed.inside_out, counts.components);
   report.warn(what + " inwards, and those of the result will; --outwards turns them over");
-}
-
-FeatureRules feature_rules(const ImportOptions& options, double diagonal) {
-  const auto wants = [&](const char* kind) {
-    return options.attribute_features == "all" || options.attribute_features == kind;
-  };
-  const auto height = [&](const std::optional<Length>& length) {
-    return length ? length->resolve(diagonal) : std::numeric_limits<double>::infinity();
-  };
-  return {.angle_deg = options.feature_angle_deg,
-          .all_creases = options.all_creases,
-          .height = height(options.feature_height),
-          .facet_height = height(options.facet_height),
-          .labels = wants("labels"),
-          .seams = wants("seams")};
 }
 
 /// Edges of walls that stand among measured points are as jagged as noise is.
@@ -380,6 +381,7 @@ Repaired repair(const PolyMesh& soup, const ImportOptions& options, Observer& ob
   repairs.unreferenced_vertices = count_unreferenced(soup);
 
   observer.report("repairing", 0.1);
+  import::drop_copied_pieces(triangles, repairs);
   std::vector<Index> border = import::weld_borders(triangles, frame.diagonal, repairs);
   border = import::sew_gaps(triangles, border, frame.diagonal, repairs);
   border = import::sew_divided_borders(triangles, border, frame.diagonal, repairs);
@@ -398,19 +400,11 @@ Repaired repair(const PolyMesh& soup, const ImportOptions& options, Observer& ob
   return result;
 }
 
-/// Finds features by the options' rules, and those listed, by the parts that repairs divided their
-/// edges into.
-FeatureCounts mark_features(TriMesh& mesh, const ImportOptions& options, const PolyMesh& soup,
-                            const std::vector<std::vector<import::DividedEdge>>& divisions,
-                            const EdgeList* listed, Report& report) {
-  EdgeList parts;
-  for (const std::vector<import::DividedEdge>& divided : divisions) {
-    if (listed == nullptr) break;
-    parts = import::listed_parts(*listed, soup, divided);
-    listed = &parts;
-  }
+/// Finds features by the options' rules, and those listed.
+FeatureCounts mark_features(TriMesh& mesh, const ImportOptions& options,
+                            const import::ListedEdges* listed, Report& report) {
   const FeatureCounts features =
-      import::find_features(mesh, feature_rules(options, mesh.diagonal), soup, listed);
+      import::find_features(mesh, feature_rules(options, mesh.diagonal), listed);
   if (options.no_attributes) mesh.attributes = {};
   warn_of_dropped_creases(mesh.diagonal, features, report);
   warn_of_many_seams(mesh, features, report);
@@ -429,6 +423,9 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
                          const EdgeList* listed) {
   ImportResult result;
   const Repaired given = repair(soup, options, observer);
+  std::optional<import::ListedEdges> edges;
+  if (listed != nullptr) edges.emplace(*listed, soup, given.triangles);
+  const import::ListedEdges* listed_edges = edges ? &*edges : nullptr;
   observer.report("ordering", 0.5);
   result.mesh = import::assemble(given.triangles);
   if (options.outwards)
@@ -439,11 +436,10 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
   result.mesh.diagonal = given.frame.diagonal;
   if (options.denoise > 0) {
     observer.report("taking noise off", 0.6);
-    take_noise_off(result.mesh, options, soup, result.report);
+    take_noise_off(result.mesh, options, listed_edges, result.report);
   }
   observer.report("finding features", 0.7);
-  const FeatureCounts features =
-      mark_features(result.mesh, options, soup, given.triangles.divided, listed, result.report);
+  const FeatureCounts features = mark_features(result.mesh, options, listed_edges, result.report);
   divide_long_edges(result.mesh, options, result.report);
   build_wedges(result.mesh);
   observer.report("checking", 0.8);

@@ -3,28 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <map>
+#include <numeric>
 #include <set>
-#include <utility>
 
+#include "common/core/disjoint_sets.h"
 #include "common/core/error.h"
 #include "stages/import/feature_graph.h"
 
 namespace strake::import {
 namespace {
-
-using Place = std::array<double, 3>;
-
-Place place_of(const PolyMesh& input, Index vertex) {
-  const Vec3& p = input.positions[vertex];
-  return {p.x(), p.y(), p.z()};
-}
-
-using Ends = std::pair<Place, Place>;
-
-Ends ends_at(const Place& a, const Place& b) { return std::minmax(a, b); }
 
 [[noreturn]] void refuse(const EdgeList& list, const EdgeList::Edge& edge,
                          const std::string& what) {
@@ -40,7 +29,6 @@ void require_vertices(const EdgeList& list, const PolyMesh& input) {
                            "order of the mesh file",
                            v, input.vertex_count()));
       }
-      // Places are compared below, and what is no number equals everything.
       if (!input.positions[v].allFinite()) {
         refuse(list, edge, fmt::format("vertex {} lies nowhere; leave it out", v));
       }
@@ -48,77 +36,89 @@ void require_vertices(const EdgeList& list, const PolyMesh& input) {
   }
 }
 
-std::vector<Index> vertices_of(const DividedEdge& edge) {
-  std::vector<Index> vertices = {edge.from};
-  vertices.insert(vertices.end(), edge.inside.begin(), edge.inside.end());
-  vertices.push_back(edge.to);
-  return vertices;
-}
-
-/// Those from the end at a place to the other.
-std::vector<Index> along(const DividedEdge& edge, const Place& from, const PolyMesh& input) {
-  std::vector<Index> vertices = vertices_of(edge);
-  if (place_of(input, edge.from) != from) std::reverse(vertices.begin(), vertices.end());
-  return vertices;
+/// [V] The lowest of the vertices at the same place, and of those that were joined with them.
+std::vector<Index> numbers_of(const PolyMesh& input, const std::vector<JoinedVertex>& joined) {
+  std::vector<Index> order;  // what is no number equals everything
+  for (Index v = 0; v < input.vertex_count(); ++v) {
+    if (input.positions[v].allFinite()) order.push_back(v);
+  }
+  const auto place = [&](Index v) {
+    const Vec3& p = input.positions[v];
+    return std::array<double, 3>{p.x(), p.y(), p.z()};
+  };
+  std::sort(order.begin(), order.end(), [&](Index a, Index b) { return place(a) < place(b); });
+  DisjointSets same(input.vertex_count());
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    if (place(order[i - 1]) == place(order[i])) same.unite(order[i - 1], order[i]);
+  }
+  for (const JoinedVertex& vertex : joined) same.unite(vertex.gone, vertex.kept);
+  std::vector<Index> numbers(input.positions.size());
+  for (Index v = 0; v < input.vertex_count(); ++v) numbers[v] = same.find(v);
+  return numbers;
 }
 
 }  // namespace
 
-EdgeList listed_parts(const EdgeList& list, const PolyMesh& input,
-                      const std::vector<DividedEdge>& divided) {
-  std::map<Ends, const DividedEdge*> by_ends;
-  for (const DividedEdge& edge : divided) {
-    const std::vector<Index> vertices = vertices_of(edge);
-    if (std::count(vertices.begin(), vertices.end(), kNone) > 0) continue;
-    by_ends[ends_at(place_of(input, edge.from), place_of(input, edge.to))] = &edge;
-  }
+ListedEdges::ListedEdges(const EdgeList& list, const PolyMesh& input, const Soup& soup)
+    : list_(list) {
   require_vertices(list, input);
-  EdgeList parts{{}, list.name};
-  for (const EdgeList::Edge& edge : list.edges) {
-    const Place from = place_of(input, edge.from);
-    const auto found = by_ends.find(ends_at(from, place_of(input, edge.to)));
-    if (found == by_ends.end()) {
-      parts.edges.push_back(edge);
-      continue;
-    }
-    const std::vector<Index> vertices = along(*found->second, from, input);
-    for (std::size_t i = 1; i < vertices.size(); ++i) {
-      parts.edges.push_back({vertices[i - 1], vertices[i], edge.line});
-    }
-  }
-  return parts;
+  number_ = numbers_of(input, soup.joined);
+  for (const std::vector<DividedEdge>& round : soup.divided) divide(round);
 }
 
-Index flag_listed_edges(const EdgeList& list, const PolyMesh& input, TriMesh& mesh) {
-  require_vertices(list, input);
-  std::map<Ends, bool> found;  // listed edges by the places of their ends
-  std::set<Place> places;
-  for (const EdgeList::Edge& edge : list.edges) {
-    const Place a = place_of(input, edge.from);
-    const Place b = place_of(input, edge.to);
-    found[ends_at(a, b)] = false;
-    places.insert({a, b});
+void ListedEdges::divide(const std::vector<DividedEdge>& divided) {
+  std::map<Ends, const DividedEdge*> by_ends;
+  for (const DividedEdge& edge : divided) {
+    if (edge.from == kNone || edge.to == kNone || std::ranges::count(edge.inside, kNone) > 0) {
+      continue;
+    }
+    by_ends[ends_of(edge.from, edge.to)] = &edge;
+  }
+  std::vector<EdgeList::Edge> parts;
+  for (const EdgeList::Edge& edge : list_.edges) {
+    const auto found = by_ends.find(ends_of(edge.from, edge.to));
+    std::vector<Index> inside;
+    if (found != by_ends.end()) inside = found->second->inside;
+    const bool is_reversed = !inside.empty() && number_[found->second->from] != number_[edge.from];
+    if (is_reversed) std::reverse(inside.begin(), inside.end());
+    Index from = edge.from;
+    for (const Index v : inside) {
+      parts.push_back({from, v, edge.line});
+      from = v;
+    }
+    parts.push_back({from, edge.to, edge.line});
+  }
+  list_.edges = std::move(parts);
+}
+
+Index ListedEdges::flag(TriMesh& mesh) const {
+  std::map<Ends, bool> found;
+  std::set<Index> numbers;
+  for (const EdgeList::Edge& edge : list_.edges) {
+    const Ends ends = ends_of(edge.from, edge.to);
+    found[ends] = false;
+    numbers.insert({ends.first, ends.second});
   }
   std::vector<std::uint8_t> is_end(mesh.positions.size(), 0);
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     const Index source = mesh.source_vertex[v];
-    is_end[v] = source != kNone && places.contains(place_of(input, source)) ? 1 : 0;
+    is_end[v] = source != kNone && numbers.contains(number_[source]) ? 1 : 0;
   }
   Index count = 0;
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
     if (mesh.edge_of(h) != h || is_end[mesh.from(h)] == 0 || is_end[mesh.to(h)] == 0) continue;
-    const auto listed = found.find(ends_at(place_of(input, mesh.source_vertex[mesh.from(h)]),
-                                           place_of(input, mesh.source_vertex[mesh.to(h)])));
+    const auto listed =
+        found.find(ends_of(mesh.source_vertex[mesh.from(h)], mesh.source_vertex[mesh.to(h)]));
     if (listed == found.end()) continue;
     listed->second = true;
     if (mesh.is_boundary(h)) continue;  // kept anyway
     set_feature(mesh, h, true);
     ++count;
   }
-  for (const EdgeList::Edge& edge : list.edges) {
-    if (found.at(ends_at(place_of(input, edge.from), place_of(input, edge.to)))) continue;
+  for (const EdgeList::Edge& edge : list_.edges) {
+    if (found.at(ends_of(edge.from, edge.to))) continue;
     refuse(
-        list, edge,
+        list_, edge,
         fmt::format("no edge joins vertices {} and {}, or repairs have removed it; list vertices "
                     "that are neighbours",
                     edge.from, edge.to));

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "common/core/edge_list.h"
@@ -9,16 +12,27 @@
 
 namespace strake::import {
 
-/// The list with the parts of edges that got vertices inside in place of these.
-EdgeList listed_parts(const EdgeList& list, const PolyMesh& input,
-                      const std::vector<DividedEdge>& divided);
+/// The edges of a list after the repairs: vertices of the input count as one that lie at the same
+/// place or were joined, and edges that got vertices inside as their parts.
+class ListedEdges {
+ public:
+  /// \param input  the polygons that the list's numbers refer to
+  /// \param soup   what repairs made of them
+  /// \throw InputError naming the list's file, line and a remedy where there is no such vertex
+  ListedEdges(const EdgeList& list, const PolyMesh& input, const Soup& soup);
 
-/// Flags the edges of a list as features. Vertices at the same place count as one, so edges are
-/// found also where the repairs joined or copied vertices.
-/// \param input  the polygons that the list's numbers refer to
-/// \return inner edges flagged
-/// \throw InputError naming the list's file, line and a remedy where there is no such vertex or
-/// edge
-Index flag_listed_edges(const EdgeList& list, const PolyMesh& input, TriMesh& mesh);
+  /// Flags them as features. \return inner edges flagged
+  /// \throw InputError likewise where there is no such edge
+  Index flag(TriMesh& mesh) const;
+
+ private:
+  using Ends = std::pair<Index, Index>;  ///< numbers of vertices, the lower one first
+
+  [[nodiscard]] Ends ends_of(Index a, Index b) const { return std::minmax(number_[a], number_[b]); }
+  void divide(const std::vector<DividedEdge>& divided);
+
+  EdgeList list_;
+  std::vector<Index> number_;  ///< [V of the input] equal for those that count as one
+};
 
 }  // namespace strake::import

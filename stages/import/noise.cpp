@@ -194,7 +194,7 @@ class Repetition {
 /// What a vertex lies on; vertices are compared with others of their kind.
 enum class Kind : std::uint8_t { face, crease, boundary, held };
 
-/// [V] Corners and ends of creases are held, at the boundary, too.
+/// [V] Corners and ends of creases are held, at the boundary, too, and tips of cones.
 std::vector<Kind> kinds_of_vertices(const TriMesh& mesh) {
   std::vector<int> creases(mesh.positions.size(), 0);
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {
@@ -202,7 +202,7 @@ std::vector<Kind> kinds_of_vertices(const TriMesh& mesh) {
   }
   std::vector<Kind> kinds(mesh.positions.size(), Kind::face);
   for (std::size_t v = 0; v < kinds.size(); ++v) {
-    if (creases[v] == 0) continue;
+    if (creases[v] == 0 && mesh.is_corner[v] == 0) continue;
     kinds[v] = creases[v] == 2 && mesh.is_corner[v] == 0 ? Kind::crease : Kind::held;
   }
   for (Index h = 0; h < mesh.halfedge_count(); ++h) {

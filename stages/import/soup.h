@@ -20,6 +20,12 @@ struct DividedEdge {
   std::vector<Index> inside;  ///< from `from` on; kNone of inserted vertices
 };
 
+/// A vertex of the input that another one took the place of.
+struct JoinedVertex {
+  Index gone;
+  Index kept;
+};
+
 /// Triangles on the way from the file to a manifold; nothing is promised about how they meet.
 struct Soup {
   std::vector<Vec3> positions;       ///< [V]
@@ -28,6 +34,7 @@ struct Soup {
   std::vector<Index> source_face;    ///< [F] index in the input
   std::vector<std::array<TexturePoint, 3>> texture;  ///< [F] of corners; empty without
   std::vector<std::vector<DividedEdge>> divided;     ///< where borders were sewn, round by round
+  std::vector<JoinedVertex> joined;                  ///< not where both are at the same place
 
   [[nodiscard]] Index vertex_count() const { return static_cast<Index>(positions.size()); }
   [[nodiscard]] Index face_count() const { return static_cast<Index>(faces.size()); }

@@ -126,6 +126,10 @@ std::int64_t rename_vertices(Soup& soup, DisjointSets& joined, double& farthest)
     const Index kept = joined.find(v);
     if (kept == v) continue;
     ++gone;
+    const bool are_apart = soup.positions[v] != soup.positions[kept];
+    if (are_apart && soup.source_vertex[v] != kNone && soup.source_vertex[kept] != kNone) {
+      soup.joined.push_back({soup.source_vertex[v], soup.source_vertex[kept]});
+    }
     largest = std::max(largest, (soup.positions[v] - soup.positions[kept]).norm());
   }
   farthest += largest;

@@ -7,7 +7,7 @@ namespace strake {
 Stage lift_stage() {
   Stage stage;
   stage.name = "lift";
-  stage.version = 2;
+  stage.version = 3;
   stage.summary = "Takes a result from a coarser mesh back to the one it was made from.";
   stage.inputs = {
       {.name = "mesh", .kind = PortKind::mesh, .help = "mesh artifact", .of_parent = true},

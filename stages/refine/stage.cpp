@@ -9,7 +9,7 @@ namespace strake {
 Stage refine_stage() {
   Stage stage;
   stage.name = "refine";
-  stage.version = 29;
+  stage.version = 30;
   stage.summary = "Divides cells of a result that are too far from the surface.";
   stage.inputs = {{"mesh", PortKind::mesh, "mesh artifact"},
                   {"fitted", PortKind::quads, "quads artifact of that mesh"}};

@@ -523,7 +523,7 @@ FAULTS = [
           "import_tests", "^TakeNoiseOff"),
     Fault("creases become round where noise is taken off",
           "stages/import/import.cpp",
-          "  if (!is_rough) {\n", "  if (is_rough) {\n", "import_tests", "^TakeNoiseOff"),
+          "is_rough ? FeatureRules{", "!is_rough ? FeatureRules{", "import_tests", "^TakeNoiseOff"),
     Fault("faces that cross for a count are left to lines",
           "strake/chain/replace_crossing.cpp",
           "met.all.size() > kMostReplaced ||", "met.all.size() < kMostReplaced ||",

@@ -9,7 +9,7 @@ namespace strake {
 Stage refine_uncross_stage() {
   Stage stage;
   stage.name = "refine-uncross";
-  stage.version = 9;
+  stage.version = 10;
   stage.summary = "Takes the input's own faces where faces of a result cross.";
   stage.inputs = {{"mesh", PortKind::mesh, "mesh artifact"},
                   {"fitted", PortKind::quads, "quads artifact of that mesh"}};

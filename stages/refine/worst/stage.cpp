@@ -9,7 +9,7 @@ namespace strake {
 Stage refine_worst_stage() {
   Stage stage;
   stage.name = "refine-worst";
-  stage.version = 3;
+  stage.version = 4;
   stage.summary = "Brings the places of a result that are farthest off nearer to the surface.";
   stage.inputs = {{"mesh", PortKind::mesh, "mesh artifact"},
                   {"fitted", PortKind::quads, "quads artifact of that mesh"}};

@@ -395,6 +395,48 @@ TEST(Features, SliversDoNotTurnTheirNeighboursIntoCreases) {
   }
 }
 
+/// Models on a map have all digits it takes to lie there.
+TEST(Features, AreTheSameFarFromTheOrigin) {
+  constexpr int kSides = 720;
+  PolyMesh needles;  // a cylinder whose lids are fans of thin triangles
+  for (int i = 0; i < kSides; ++i) {
+    const double t = 2 * std::numbers::pi * i / kSides;
+    for (const double z : {0.0, 1.0}) needles.positions.emplace_back(std::cos(t), std::sin(t), z);
+  }
+  for (const Index z : {0, 1}) needles.positions.emplace_back(0, 0, z);
+  for (Index i = 0; i < kSides; ++i) {
+    const Index a = 2 * i;
+    const Index b = 2 * ((i + 1) % kSides);
+    needles.add_face(std::array<Index, 4>{a, b, b + 1, a + 1});
+    needles.add_face(std::array<Index, 3>{2 * kSides, b, a});
+    needles.add_face(std::array<Index, 3>{2 * kSides + 1, a + 1, b + 1});
+  }
+  for (const double away : {0.0, 100.0, 3000.0, 1e5}) {
+    PolyMesh moved = needles;
+    for (Vec3& p : moved.positions) p += away * Vec3(1, 0.3, -0.2);
+    const ImportResult result = shapes::imported(moved, shapes::undivided());
+    EXPECT_EQ(shapes::count(result.report, "features.edges"), 2 * kSides) << away;
+  }
+}
+
+TEST(Corners, OfCoarseBrackets) {
+  for (const int n : {1, 2, 3, 4, 10}) {
+    const PolyMesh bracket =
+        shapes::grid(2 * n, n, [](double x, double) { return -std::abs(2 * x - 1); });
+    const TriMesh mesh = shapes::imported(bracket, shapes::undivided()).mesh;
+    Index corners = 0;
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+      if (mesh.is_corner[v] == 0) continue;
+      ++corners;
+      const Vec3 p = mesh.positions[v] + mesh.origin;
+      const double off = std::min({std::abs(p.x()), std::abs(p.x() - 0.5), std::abs(p.x() - 1)}) +
+                         std::min(std::abs(p.y()), std::abs(p.y() - 1));
+      EXPECT_LT(off, 1e-12) << n << ": " << p.transpose();
+    }
+    EXPECT_EQ(corners, 6) << n;
+  }
+}
+
 TEST(Corners, OfASquareAndNoneOfADisk) {
   const PolyMesh square = shapes::grid(30, 30, [](double, double) { return 0.0; });
   EXPECT_EQ(corners(imported(square).mesh), 4);

@@ -268,6 +268,35 @@ TEST(TakeNoiseOff, TakesItOffBoundariesToo) {
   EXPECT_LT(left, 0.5 * noisy);
 }
 
+TEST(TakeNoiseOff, LeavesTipsOfCones) {
+  constexpr int kAround = 64;
+  constexpr int kRings = 20;
+  PolyMesh cone;
+  cone.positions.emplace_back(0, 0, 1);
+  for (int k = 1; k <= kRings; ++k) {
+    for (int i = 0; i < kAround; ++i) {
+      const double t = 2 * std::numbers::pi * i / kAround;
+      const double r = 0.6 * k / kRings;
+      cone.positions.emplace_back(r * std::cos(t), r * std::sin(t), 1 - double(k) / kRings);
+    }
+  }
+  const auto at = [](int k, int i) { return 1 + (k - 1) * kAround + i % kAround; };
+  for (int i = 0; i < kAround; ++i) {
+    cone.add_face(std::array<Index, 3>{0, at(1, i), at(1, i + 1)});
+    for (int k = 1; k < kRings; ++k) {
+      cone.add_face(std::array<Index, 4>{at(k, i), at(k + 1, i), at(k + 1, i + 1), at(k, i + 1)});
+    }
+  }
+  ImportOptions options = shapes::undivided();
+  options.denoise = 10;
+  const TriMesh mesh = shapes::imported(cone, options).mesh;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    if (mesh.source_vertex[v] != 0) continue;
+    EXPECT_EQ(mesh.is_corner[v], 1);
+    EXPECT_NEAR((mesh.positions[v] + mesh.origin).z(), 1, 1e-12);
+  }
+}
+
 TEST(TakeNoiseOff, IsAskedForByAWarningAndAnOption) {
   PolyMesh noisy = sample(SampleKind::torus, 8000);
   add_noise(noisy, 0.3);

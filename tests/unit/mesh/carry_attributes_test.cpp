@@ -5,6 +5,8 @@
 #include <Eigen/Geometry>
 #include <map>
 
+#include "common/geometry/poly_topology/face_shape.h"
+#include "common/geometry/samples/samples.h"
 #include "tests/support/attributed.h"
 #include "tests/support/chain.h"
 #include "tests/support/mesh_support.h"
@@ -66,6 +68,36 @@ TEST(CarryAttributes, EveryFaceOfACubeHasTheLabelOfItsSide) {
     for (Index f = 0; f < quads.face_count(); ++f) {
       EXPECT_EQ(quads.attributes.labels[0].of_face[f], support::side_of(normal_of(quads, f)));
     }
+  }
+}
+
+/// A border that runs through cells leaves as much on both sides, whichever label comes first.
+TEST(CarryAttributes, BordersAcrossCellsLeaveEitherSideItsArea) {
+  SampleOptions options;
+  options.faces = 20000;
+  PolyMesh input = make_sample(SampleKind::sphere, options);
+  const auto is_cap = [](const PolyMesh& mesh, Index f) {
+    double z = 0;
+    for (const Vec3& p : {mesh.positions[mesh.face(f)[0]], mesh.positions[mesh.face(f)[1]],
+                          mesh.positions[mesh.face(f)[2]]}) {
+      z += p.z() / 3;
+    }
+    return z > 0.3;
+  };
+  for (const Index cap : {0, 1}) {
+    input.attributes.labels = {{"g", {}, {"a", "b"}}};
+    for (Index f = 0; f < input.face_count(); ++f) {
+      input.attributes.labels[0].of_face.push_back(is_cap(input, f) ? cap : 1 - cap);
+    }
+    const PolyMesh quads = remeshed(input, 800).quads.mesh;
+    double area = 0;
+    double all = 0;
+    for (Index f = 0; f < quads.face_count(); ++f) {
+      const double own = newell_normal(quads.positions, quads.face(f)).norm() / 2;
+      all += own;
+      if (quads.attributes.labels[0].of_face[f] == cap) area += own;
+    }
+    EXPECT_NEAR(area / all, 0.35, 0.006) << cap;  // by Archimedes
   }
 }
 
