@@ -3,8 +3,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 
 #include "common/geometry/angles.h"
@@ -50,13 +50,10 @@ FaceNormals::FaceNormals(const TriMesh& mesh) : mesh_(&mesh) {
   sliver_normals_.resize(slivers_.size(), Vec3::Zero());
   // Outwards from known faces, front by front, so that the result does not depend on the order of
   // faces within a front.
-  std::vector<std::size_t> open(slivers_.size());
-  std::iota(open.begin(), open.end(), std::size_t{0});
-  while (!open.empty()) {
-    std::vector<std::size_t> rest;
-    std::vector<std::pair<std::size_t, Vec3>> found;
-    for (const std::size_t at : open) {
-      const Index f = slivers_[at];
+  std::vector<Index> front = slivers_;
+  while (!front.empty()) {
+    std::vector<std::pair<Index, Vec3>> found;
+    for (const Index f : front) {
       Vec3 sum = Vec3::Zero();
       for (Index h = 3 * f; h < 3 * f + 3; ++h) {
         const Index t = mesh.twin[h];
@@ -64,18 +61,26 @@ FaceNormals::FaceNormals(const TriMesh& mesh) : mesh_(&mesh) {
         sum += (*this)[TriMesh::face_of(t)] *
                (mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)]).norm();
       }
-      if (sum.norm() > 0) {
-        found.emplace_back(at, sum.normalized());
-      } else {
-        rest.push_back(at);
+      if (sum.norm() > 0) found.emplace_back(f, sum.normalized());
+    }
+    front.clear();
+    for (const auto& [f, normal] : found) {
+      sliver_normals_[place_of_sliver(f)] = normal;
+      is_sliver[f] = 0;  // no more to be found
+    }
+    for (const auto& [f, normal] : found) {
+      for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+        const Index t = mesh.twin[h];
+        if (t != kNone && is_sliver[TriMesh::face_of(t)] != 0) {
+          front.push_back(TriMesh::face_of(t));
+        }
       }
     }
-    if (found.empty()) {
-      for (const std::size_t at : rest) sliver_normals_[at] = Vec3::UnitZ();
-      break;
-    }
-    for (const auto& [at, normal] : found) sliver_normals_[at] = normal;
-    open = std::move(rest);
+    std::sort(front.begin(), front.end());
+    front.erase(std::unique(front.begin(), front.end()), front.end());
+  }
+  for (Vec3& normal : sliver_normals_) {
+    if (normal.isZero(0)) normal = Vec3::UnitZ();
   }
 }
 
@@ -90,10 +95,12 @@ Vec3 FaceNormals::own(Index face) const {
   return n / n.norm();
 }
 
-Vec3 FaceNormals::of_sliver(Index face) const {
+std::size_t FaceNormals::place_of_sliver(Index face) const {
   const auto found = std::lower_bound(slivers_.begin(), slivers_.end(), face);
-  return sliver_normals_[static_cast<std::size_t>(found - slivers_.begin())];
+  return static_cast<std::size_t>(found - slivers_.begin());
 }
+
+Vec3 FaceNormals::of_sliver(Index face) const { return sliver_normals_[place_of_sliver(face)]; }
 
 std::vector<Vec3> wedge_normals(const TriMesh& mesh, const FaceNormals& face_normals) {
   std::vector<Vec3> normals(mesh.wedge_count(), Vec3::Zero());

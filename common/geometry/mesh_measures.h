@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "common/core/tri_mesh.h"
@@ -29,6 +30,7 @@ class FaceNormals {
  private:
   [[nodiscard]] Vec3 own(Index face) const;
   [[nodiscard]] Vec3 of_sliver(Index face) const;
+  [[nodiscard]] std::size_t place_of_sliver(Index face) const;  ///< among all of them
 
   const TriMesh* mesh_;
   std::vector<Index> slivers_;        ///< ascending

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -50,6 +51,31 @@ void require_finite(const PolyMesh& mesh) {
                               " has coordinates that are no finite numbers; repair the mesh first");
     }
   }
+}
+
+/// Times that one of two surfaces may be as large as the other one, and they may be apart. Beyond,
+/// every face is equally near to every sample, and a place not known better than the smaller one's
+/// size.
+constexpr double kMostUnlike = 1000;
+
+void require_comparable(const TriMesh& reference, const PolyMesh& candidate) {
+  Eigen::AlignedBox3d box;
+  for (const Index v : candidate.corners) box.extend(candidate.positions[v] - reference.origin);
+  Eigen::AlignedBox3d around;
+  for (const Vec3& p : reference.positions) around.extend(p);
+  const double size = box.diagonal().norm();
+  if (!(size > reference.diagonal / kMostUnlike && size < reference.diagonal * kMostUnlike)) {
+    throw PreconditionError(
+        fmt::format("the candidate is {:.3g} times as large as the reference, as in another unit; "
+                    "give both in the same one",
+                    size / reference.diagonal));
+  }
+  const double apart = box.exteriorDistance(around);
+  if (apart <= kMostUnlike * std::min(size, reference.diagonal)) return;
+  throw PreconditionError(
+      fmt::format("the candidate lies {:.3g} diagonals away from the reference; give both in the "
+                  "same place",
+                  apart / reference.diagonal));
 }
 
 void require_within(const Length& tolerance, const evaluation::Farthest& farthest,
@@ -125,6 +151,7 @@ EvaluateResult evaluate_mesh(const TriMesh& reference, const PrincipalField* fie
   const PolyEdges edges = collect_edges(candidate);
   const PolyTopology topology = analyse(candidate, edges);
   require_finite(candidate);
+  require_comparable(reference, candidate);
   report_topology(topology_of(reference), topology, report);
 
   observer.report("shape", 0);

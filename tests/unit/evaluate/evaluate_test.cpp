@@ -10,6 +10,7 @@
 #include "common/core/error.h"
 #include "common/core/place_text.h"
 #include "common/core/tolerance_error.h"
+#include "common/geometry/samples/samples.h"
 #include "tests/support/mesh_support.h"
 #include "tests/unit/evaluate/evaluated.h"
 #include "tests/unit/evaluate/shapes.h"
@@ -375,6 +376,22 @@ TEST(Evaluate, TopologyThatDiffersIsNamed) {
   EXPECT_EQ(number(report, "topology.equal"), 0);
   EXPECT_EQ(number(report, "topology.candidate.misoriented_edges"), 4);
   EXPECT_FALSE(report.warnings().empty());
+}
+
+/// Of all samples every face would be equally near.
+TEST(Evaluate, MeshesInOtherUnitsAreRefused) {
+  SampleOptions options;
+  options.faces = 800;
+  const PolyMesh torus = make_sample(SampleKind::torus, options);
+  const TriMesh reference = shapes::reference(torus);
+  for (const double factor : {1e-12, 1e-6, 0.0009, 1100.0, 1e9}) {
+    PolyMesh other = torus;
+    for (Vec3& p : other.positions) p *= factor;
+    EXPECT_THROW(evaluated(reference, other), PreconditionError) << factor;
+  }
+  PolyMesh away = torus;
+  for (Vec3& p : away.positions) p += Vec3(0, 2e4, 0);
+  EXPECT_THROW(evaluated(reference, away), PreconditionError);
 }
 
 TEST(Evaluate, MeshesThatCannotBeMeasuredAreRefused) {
