@@ -55,6 +55,15 @@ std::vector<fs::path> KeptFolder::files() const {
   return all;
 }
 
+bool KeptFolder::is_kept() const {
+  std::error_code ignored;
+  if (!fs::is_regular_file(times(), ignored)) return false;
+  const auto seconds = read_times(read_text(times()));
+  return seconds && std::ranges::any_of(stages_, [&](const Stage* stage) {
+           return seconds->contains(stage->name);
+         });
+}
+
 void KeptFolder::check(const std::vector<NamedFile>& others) const {
   std::vector<fs::path> written = files();
   written.push_back(times());
@@ -65,8 +74,8 @@ void KeptFolder::check(const std::vector<NamedFile>& others) const {
                                    folder_.string(), other.path, other.role));
     }
   }
+  if (is_kept()) return;
   std::error_code ignored;
-  if (fs::exists(times(), ignored)) return;
   for (const fs::path& path : written) {
     if (!fs::exists(path, ignored)) continue;
     throw UsageError(fmt::format(

@@ -34,6 +34,8 @@ class KeptFolder {
 
  private:
   [[nodiscard]] std::filesystem::path times() const { return folder_ / "times.json"; }
+  /// Whether the folder has the times of a run, so that the files of stages are of that run.
+  [[nodiscard]] bool is_kept() const;
   /// Those of stages.
   [[nodiscard]] std::vector<std::filesystem::path> files() const;
 

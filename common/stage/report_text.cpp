@@ -59,6 +59,17 @@ std::string times_json(const std::map<std::string, double>& seconds) {
   return dump({{"seconds", seconds}});
 }
 
+std::optional<std::map<std::string, double>> read_times(const std::string& text) {
+  const Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object() || !json.contains("seconds")) return std::nullopt;
+  std::map<std::string, double> seconds;
+  for (const auto& [stage, value] : json["seconds"].items()) {
+    if (!value.is_number()) return std::nullopt;
+    seconds[stage] = value;
+  }
+  return times_json(seconds) == text ? std::optional(seconds) : std::nullopt;
+}
+
 std::string value_text(const Report::Value& value) {
   if (const auto* number = std::get_if<double>(&value)) return fmt::format("{:.6g}", *number);
   if (const auto* text = std::get_if<std::string>(&value)) return *text;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,6 +26,9 @@ std::string records_json(const std::vector<StageRecord>& records);
 
 /// Seconds that stages took, by their names: {"seconds": {...}}.
 std::string times_json(const std::map<std::string, double>& seconds);
+
+/// The seconds that `times_json` wrote; nothing where it did not write the text.
+std::optional<std::map<std::string, double>> read_times(const std::string& text);
 
 /// One "key: value" line per entry, in order, values aligned.
 std::string report_text(const Report& report);

@@ -197,7 +197,14 @@ TEST_F(FrontEnd, AFolderIsNotThatOfOtherFiles) {
   std::filesystem::create_directory(file("own"));
   put("own/size.hdf", "mine");
   must_fail(kUsage, "strake remesh torus.ply -o q.obj --keep own", "size.hdf");
+  for (const std::string times : {"", "{\"seconds\": {\"import\": 1}}", "{\"laps\": [1, 2]}"}) {
+    put("own/times.json", times);
+    must_fail(kUsage, "strake remesh torus.ply -o q.obj --keep own", "not that of a kept run");
+    EXPECT_EQ(bytes("own/times.json"), times);
+  }
   EXPECT_EQ(bytes("own/size.hdf"), "mine");
+  std::filesystem::remove(file("own/size.hdf"));
+  must_fail(kUsage, "strake remesh torus.ply -o q.obj --keep own", "has 'times.json'");
   EXPECT_FALSE(std::filesystem::exists(file("q.obj")));
 }
 
