@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "common/artifact/store/file_lock.h"
 #include "common/core/error.h"
 
 namespace strake {
@@ -20,16 +21,6 @@ constexpr std::int64_t kUnit = 16 << 20;  ///< bytes of memory per locked byte o
 constexpr std::int64_t kMostUnits = 1 << 20;
 constexpr off_t kGate = 0;  ///< the byte that whoever is next in line holds
 constexpr std::chrono::milliseconds kPause{50};
-
-/// Takes or releases the lock of one byte. \return whether that worked
-bool lock_byte(int descriptor, off_t byte, short type) {
-  struct flock range = {};
-  range.l_type = type;
-  range.l_whence = SEEK_SET;
-  range.l_start = byte;
-  range.l_len = 1;
-  return ::fcntl(descriptor, F_OFD_SETLK, &range) == 0;
-}
 
 std::int64_t units(std::int64_t bytes) { return (bytes + kUnit - 1) / kUnit; }
 
@@ -52,12 +43,15 @@ MemoryShare::MemoryShare(const std::filesystem::path& file, std::int64_t total, 
     idle();
     std::this_thread::sleep_for(kPause);
   };
-  while (!lock_byte(descriptor_, kGate, F_WRLCK)) pause();
+  for (LockOutcome gate; (gate = try_lock(descriptor_, kGate, 1)) != LockOutcome::taken; pause()) {
+    if (gate == LockOutcome::unsupported) return;
+  }
   // Units that are free are kept while waiting for the rest; nobody else takes any meanwhile.
   std::vector<bool> mine(static_cast<std::size_t>(available), false);
   for (;;) {
     for (std::int64_t i = 0; i < available && missing > 0; ++i) {
-      if (mine[static_cast<std::size_t>(i)] || !lock_byte(descriptor_, kGate + 1 + i, F_WRLCK)) {
+      if (mine[static_cast<std::size_t>(i)] ||
+          try_lock(descriptor_, kGate + 1 + i, 1) != LockOutcome::taken) {
         continue;
       }
       mine[static_cast<std::size_t>(i)] = true;
@@ -66,7 +60,7 @@ MemoryShare::MemoryShare(const std::filesystem::path& file, std::int64_t total, 
     if (missing == 0) break;
     pause();
   }
-  lock_byte(descriptor_, kGate, F_UNLCK);
+  unlock(descriptor_, kGate, 1);
 }
 
 MemoryShare::~MemoryShare() { ::close(descriptor_); }

@@ -10,7 +10,8 @@ namespace strake {
 ///
 /// Each process locks as many bytes of one file as it needs units of memory, so the kernel gives
 /// the share back when the process ends, however that happens. First come, first served: nobody
-/// starves behind smaller ones.
+/// starves behind smaller ones. On a file system without locks nobody waits, and `--jobs` is all
+/// that bounds the memory.
 class MemoryShare {
  public:
   /// Waits until the share is free.

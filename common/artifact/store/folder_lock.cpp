@@ -8,6 +8,7 @@
 #include <cstring>
 #include <system_error>
 
+#include "common/artifact/store/file_lock.h"
 #include "common/core/error.h"
 
 namespace strake {
@@ -28,12 +29,7 @@ FolderLock::FolderLock(const fs::path& folder) {
     throw InputError("store: cannot write '" + folder.string() + "': " + std::strerror(errno) +
                      "; free space, check the rights, or use another store");
   }
-  struct flock range = {};
-  range.l_type = F_WRLCK;
-  range.l_whence = SEEK_SET;
-  if (::fcntl(descriptor_, F_OFD_SETLK, &range) != 0 && (errno == EAGAIN || errno == EACCES)) {
-    return;
-  }
+  if (try_lock(descriptor_, 0, 0) == LockOutcome::held_by_others) return;
   // Somebody may have removed the folder, and with it this file, before the lock was taken.
   struct stat mine = {};
   struct stat present = {};
