@@ -145,8 +145,10 @@ class StepRun {
     }
   }
 
-  /// Removes what a killed process left half written. The caller has the lock.
-  void clean(const EntryName& name) const {
+  /// Removes what a killed process left half written. Without locks somebody may still be writing
+  /// it.
+  void clean(const EntryName& name, const FolderLock& lock) const {
+    if (!lock.is_exclusive()) return;
     std::error_code ignored;
     for (const auto& file : fs::directory_iterator(store_.folder(name), ignored)) {
       if (file.path().extension() == kTemporaryExtension) fs::remove(file.path(), ignored);
@@ -204,11 +206,11 @@ class StepRun {
       log("found in the store: " + stored->file.string());
       return outcome;
     }
-    return run_program(name, provenance, stored);
+    return run_program(name, *lock, provenance, stored);
   }
 
-  StepOutcome run_program(const EntryName& name, const Provenance& provenance,
-                          const std::optional<Entry>& before) {
+  StepOutcome run_program(const EntryName& name, const FolderLock& lock,
+                          const Provenance& provenance, const std::optional<Entry>& before) {
     std::optional<MemoryShare> share;
     if (settings_.memory > 0) {
       show("waiting for memory");
@@ -216,7 +218,7 @@ class StepRun {
         if (interrupt_requested()) throw Interrupted();
       });
     }
-    clean(name);
+    clean(name, lock);
     Entry entry;
     entry.file = store_.folder(name) / order_.file_name;
     entry.provenance = provenance;
@@ -227,7 +229,7 @@ class StepRun {
     const ChildOutcome ended = child.wait([&](const std::string& line) { take_line(line); }, [] {});
     log(fmt::format("exit code {} after {:.3f} s, at most {} bytes of memory", ended.exit_code,
                     ended.seconds, ended.peak_bytes));
-    if (ended.exit_code != 0) clean(name);
+    if (ended.exit_code != 0) clean(name, lock);
     if (ended.exit_code == kCannotStart) {
       throw InputError(
           fmt::format("'{}' cannot be started: programs of stages belong beside "

@@ -29,7 +29,9 @@ FolderLock::FolderLock(const fs::path& folder) {
     throw InputError("store: cannot write '" + folder.string() + "': " + std::strerror(errno) +
                      "; free space, check the rights, or use another store");
   }
-  if (try_lock(descriptor_, 0, 0) == LockOutcome::held_by_others) return;
+  const LockOutcome outcome = try_lock(descriptor_, 0, 0);
+  if (outcome == LockOutcome::held_by_others) return;
+  exclusive_ = outcome == LockOutcome::taken;
   // Somebody may have removed the folder, and with it this file, before the lock was taken.
   struct stat mine = {};
   struct stat present = {};

@@ -20,10 +20,14 @@ class FolderLock {
 
   /// False while somebody else has it; try again with a new object.
   [[nodiscard]] bool is_held() const { return held_; }
+  /// False where others may have it at the same time, as the file system has no locks: what they
+  /// are writing must stay.
+  [[nodiscard]] bool is_exclusive() const { return held_ && exclusive_; }
 
  private:
   int descriptor_ = -1;
   bool held_ = false;
+  bool exclusive_ = false;
 };
 
 }  // namespace strake
