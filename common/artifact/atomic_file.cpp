@@ -13,7 +13,6 @@
 #include <mutex>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "common/core/error.h"
@@ -39,18 +38,26 @@ Pending& pending_files() {
   throw InputError(fmt::format("cannot {} '{}': {}", action, path.string(), std::strerror(error)));
 }
 
-fs::path resolve_target(fs::path target) {
+fs::path folder_of(const fs::path& target) {
+  return target.has_parent_path() ? target.parent_path() : fs::path(".");
+}
+
+fs::path resolve_target(const fs::path& target) {
   std::error_code ignored;
-  if (fs::is_symlink(fs::symlink_status(target, ignored))) {
-    target = fs::weakly_canonical(target, ignored);
-  }
   const fs::file_status status = fs::status(target, ignored);
   if (fs::exists(status) && !fs::is_regular_file(status)) {
     throw InputError(
         fmt::format("cannot write '{}': it exists and is not a regular file; give a file name",
                     target.string()));
   }
-  return target;
+  // Step by step, as what the last link names need not exist.
+  constexpr int kMostLinks = 40;  // as the kernel
+  fs::path file = target;
+  for (int n = 0; fs::is_symlink(fs::symlink_status(file, ignored)); ++n) {
+    if (n == kMostLinks) fail("write", target, ELOOP);
+    file = folder_of(file) / fs::read_symlink(file, ignored);
+  }
+  return file;
 }
 
 bool same_bytes(const fs::path& a, const fs::path& b) {
@@ -87,10 +94,6 @@ void flush_to_disk(const fs::path& path, int flags) {
   if (error != 0) fail("flush", path, error);
 }
 
-fs::path folder_of(const fs::path& target) {
-  return target.has_parent_path() ? target.parent_path() : fs::path(".");
-}
-
 }  // namespace
 
 bool write_all(int descriptor, const void* data, std::size_t size) {
@@ -105,7 +108,7 @@ bool write_all(int descriptor, const void* data, std::size_t size) {
   return true;
 }
 
-AtomicFile::AtomicFile(fs::path target) : target_(resolve_target(std::move(target))) {
+AtomicFile::AtomicFile(const fs::path& target) : target_(resolve_target(target)) {
   static std::atomic<unsigned> counter{0};
   const std::string name = target_.filename().string();
   const std::lock_guard guard(pending_files().lock);

@@ -19,10 +19,11 @@ bool write_all(int descriptor, const void* data, std::size_t size);
 /// the target stays as it was. Two writers of one target do not disturb each other: the last wins.
 class AtomicFile {
  public:
-  /// Creates an empty temporary file in the folder of `target`; follows `target` if it is a link.
-  /// \throw InputError where that folder is missing or not writable, or where `target` exists and
-  ///        is no regular file
-  explicit AtomicFile(std::filesystem::path target);
+  /// Creates an empty temporary file in the folder of `target`; follows `target` if it is a link,
+  /// also to what is not there yet.
+  /// \throw InputError where that folder is missing or not writable, where `target` exists and is no
+  ///        regular file, or where links lead in a circle
+  explicit AtomicFile(const std::filesystem::path& target);
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
   ~AtomicFile();

@@ -83,6 +83,25 @@ TEST_F(AtomicFileTest, WritesThroughALink) {
   EXPECT_EQ(read(folder_ / "real.bin"), "new");
 }
 
+TEST_F(AtomicFileTest, WritesThroughLinksToWhatIsNotThere) {
+  fs::create_directory(folder_ / "far");
+  fs::create_symlink("far/second.bin", folder_ / "first.bin");
+  fs::create_symlink(folder_ / "far" / "real.bin", folder_ / "far" / "second.bin");
+  AtomicFile file(folder_ / "first.bin");
+  write(file.temporary(), "new");
+  file.commit();
+  EXPECT_TRUE(fs::is_symlink(folder_ / "first.bin"));
+  EXPECT_TRUE(fs::is_symlink(folder_ / "far" / "second.bin"));
+  EXPECT_EQ(read(folder_ / "far" / "real.bin"), "new");
+}
+
+TEST_F(AtomicFileTest, RefusesLinksInACircle) {
+  fs::create_symlink("there.bin", folder_ / "here.bin");
+  fs::create_symlink("here.bin", folder_ / "there.bin");
+  EXPECT_THROW(AtomicFile{folder_ / "here.bin"}, InputError);
+  EXPECT_EQ(entries(), 2);
+}
+
 TEST_F(AtomicFileTest, RefusesFoldersAndMissingFolders) {
   EXPECT_THROW(AtomicFile{folder_}, InputError);
   try {
