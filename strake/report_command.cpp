@@ -8,6 +8,7 @@
 
 #include "common/artifact/text_file.h"
 #include "common/core/error.h"
+#include "common/stage/value.h"
 #include "strake/commands.h"
 #include "strake/report/page.h"
 #include "strake/report/viewer.h"
@@ -55,6 +56,7 @@ int make_report(const ReportCommand& command) {
   if (std::filesystem::path(command.output).extension() != ".html") {
     throw UsageError("--output '" + command.output + "': the name of a report ends in .html");
   }
+  check_place("output", command.output);
   const std::vector<report::RunFiles> runs = read_runs(command);
   require_viewer();
   const std::string page = report::fill_page(report::viewer_page(), report::describe_runs(runs));

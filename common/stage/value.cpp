@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/artifact/artifact.h"
+#include "common/artifact/atomic_file.h"
 #include "common/artifact/edge_list_file.h"
 #include "common/artifact/meshfile/guide_reader.h"
 #include "common/artifact/meshfile/mesh_writer.h"
@@ -147,6 +148,7 @@ void check_place(const std::string& role, const fs::path& path) {
     throw InputError(role + " '" + path.string() + "': the folder '" + path.parent_path().string() +
                      "' does not exist; make it first");
   }
+  const AtomicFile attempt(path);  // leaves nothing behind
 }
 
 }  // namespace strake

@@ -74,7 +74,8 @@ const std::vector<std::string>& output_extensions(PortKind kind);
 /// \return what is wrong with how a file name ends, and the remedy; nothing: it is right
 std::string check_extension(PortKind kind, const std::filesystem::path& path);
 
-/// Refuses a file name that `save_value` could not write to, before any work is done.
+/// Refuses a file name that `save_value` could not write to, before any work is done. What is there
+/// stays as it is.
 /// \throw UsageError, InputError naming the file and a remedy
 void check_output_path(PortKind kind, const std::filesystem::path& path);
 /// Likewise, a file of any kind. \param role  what it is to the user: "output"

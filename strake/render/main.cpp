@@ -17,6 +17,7 @@
 #include "strake/render/camera.h"
 #include "strake/render/draw.h"
 #include "strake/render/image.h"
+#include "common/stage/value.h"
 #include "strake/render/line_file.h"
 #include "strake/render/scene.h"
 #include "strake/render/shown_run.h"
@@ -125,6 +126,7 @@ void interpret(Arguments& arguments) {
   constexpr int kLargest = 16384;
   if (std::sscanf(arguments.size.c_str(), "%dx%d%c", &size.width, &size.height, &rest) != 2 ||
       size.width < 1 || size.height < 1 || size.width > kLargest || size.height > kLargest) {
+/// \throw InputError  where it cannot be written
     throw UsageError("--size '" + arguments.size + "': expected WIDTHxHEIGHT, each 1 to 16384");
   }
   if (!arguments.view_address.empty()) {
@@ -132,6 +134,7 @@ void interpret(Arguments& arguments) {
   } else {
     const std::string first = arguments.shown.surface == "input" ? "plain" : "sides";
     const std::string colour = arguments.colour.empty() ? first : arguments.colour;
+  check_place("output", output);
     std::string address = "#a=0," + arguments.shown.surface + "," + colour + "," + colour + "," +
                           (arguments.layers == "none" ? "" : arguments.layers);
     if (!arguments.section.empty()) address += "&section=" + arguments.section;

@@ -18,6 +18,23 @@ class Unwritable : public ProgramTest {
   }
 };
 
+TEST_F(Unwritable, IsToldBeforeTheWork) {
+  const std::string loop = "Too many levels of symbolic links";
+  must_fail(kBadInput, "strake remesh torus.ply -o loop.obj --keep kept", loop);
+  must_fail(kBadInput, "strake remesh torus.ply -o out.obj --report loop.json --keep kept", loop);
+  must_fail(kBadInput, "strake remesh none.ply -o loop.obj", loop);
+  must_fail(kBadInput, "strake-import none.ply -o out.hdf --report /proc/none.json", "/proc/none");
+  must_fail(kBadInput, "strake-import none.ply -o /proc/none.hdf", "/proc/none");
+  must_fail(kBadInput, "strake report none -o /proc/none.html", "/proc/none");
+  must_fail(kBadInput, "strake-render none.ply -o /proc/none.png", "/proc/none");
+}
+
+TEST_F(Unwritable, WhatIsThereStays) {
+  put("out.obj", "mine");
+  must_fail(kBadInput, "strake remesh none.ply -o out.obj", "none.ply");
+  EXPECT_EQ(bytes("out.obj"), "mine");
+}
+
 TEST_F(Unwritable, LinksToWhatIsNotThereAreFollowed) {
   fs::create_directory(file("scratch"));
   fs::create_symlink("scratch/quads.obj", file("quads.obj"));
