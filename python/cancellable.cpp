@@ -2,12 +2,15 @@
 
 #include <tbb/global_control.h>
 #include <tbb/info.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
+#include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <tuple>
@@ -18,6 +21,8 @@ namespace strake::python {
 namespace {
 
 namespace py = pybind11;
+
+constexpr std::chrono::milliseconds kPause{50};
 
 /// Holds what was reported last until the other thread asks for it.
 class WatchedObserver : public StageObserver {
@@ -65,6 +70,38 @@ class Finish {
   bool done_ = false;
 };
 
+/// What is under way in all threads. Touched under the interpreter's lock only.
+struct Runs {
+  std::map<WatchedObserver*, pid_t> observers;  ///< and the process, as a fork copies this
+  std::optional<std::thread::id> ending;  ///< the thread that ends the interpreter, once it does
+};
+
+Runs& runs() {
+  static Runs all;
+  return all;
+}
+
+/// Lists a run while it is under way. \pre made and destroyed under the interpreter's lock
+class Listed {
+ public:
+  explicit Listed(WatchedObserver& observer) : observer_(&observer) {
+    runs().observers.emplace(observer_, ::getpid());
+  }
+  Listed(const Listed&) = delete;
+  Listed& operator=(const Listed&) = delete;
+  ~Listed() { runs().observers.erase(observer_); }
+
+ private:
+  WatchedObserver* observer_;
+};
+
+/// Ends this thread, silently, where another one is about to end the interpreter.
+void leave_if_ending() {
+  if (!runs().ending || *runs().ending == std::this_thread::get_id()) return;
+  PyErr_SetNone(PyExc_SystemExit);
+  throw py::error_already_set();
+}
+
 /// Lets Python handle its signals and tells it the progress. \throw what either raises
 void look_after(const py::object& progress, WatchedObserver& observer) {
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -77,8 +114,9 @@ void look_after(const py::object& progress, WatchedObserver& observer) {
 
 void run_cancellable(std::int64_t threads, const py::object& progress,
                      const std::function<void(StageObserver&)>& work) {
-  using namespace std::chrono_literals;
+  leave_if_ending();
   WatchedObserver observer;
+  const Listed listed(observer);
   Finish finish;
   std::exception_ptr failure;
   std::exception_ptr raised;
@@ -95,7 +133,7 @@ void run_cancellable(std::int64_t threads, const py::object& progress,
   });
   {
     const py::gil_scoped_release unlocked;
-    while (!finish.wait_for(50ms)) {
+    while (!finish.wait_for(kPause)) {
       const py::gil_scoped_acquire locked;
       if (raised) continue;
       try {
@@ -108,7 +146,20 @@ void run_cancellable(std::int64_t threads, const py::object& progress,
     worker.join();
   }
   if (raised) std::rethrow_exception(raised);
+  leave_if_ending();
   if (failure) std::rethrow_exception(failure);
+}
+
+void end_all() {
+  runs().ending = std::this_thread::get_id();
+  std::erase_if(runs().observers, [](const auto& run) { return run.second != ::getpid(); });
+  // Work ends within a second, but a progress function may wait for what is no more.
+  const auto last = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  while (!runs().observers.empty() && std::chrono::steady_clock::now() < last) {
+    for (const auto& [observer, process] : runs().observers) observer->cancel();
+    const py::gil_scoped_release unlocked;
+    std::this_thread::sleep_for(kPause);
+  }
 }
 
 }  // namespace strake::python

@@ -126,5 +126,6 @@ PYBIND11_MODULE(_core, module) {
   module.def("stage_options",
              [](const std::string& stage) { return describe(make_stage(stage).options); });
   module.def("remesh_options", [] { return describe(strake::RemeshOptions().declare()); });
+  pybind11::module_::import("atexit").attr("register")(pybind11::cpp_function(&end_all));
   module.attr("__version__") = STRAKE_VERSION;
 }

@@ -354,6 +354,38 @@ class Running(unittest.TestCase):
         self.assertLess(time.monotonic() - begin, 30)
         strake.import_mesh(*torus(12, 6))  # and the module still works
 
+    def ends_beside_threads(self, last_words):
+        """What a script prints that ends while threads of its are in strake."""
+        code = """if True:
+            import atexit, os, sys, threading, time
+            def small(): print(strake.import_mesh(*torus(12, 6)).positions.size > 0)
+            atexit.register(small)
+            import strake
+            from module_test import torus
+            class Late:  # keeps the end going for a while
+                def __del__(self, sleep=time.sleep): sleep(0.3)
+            late = Late()
+            told = threading.Event()
+            def work():
+                strake.remesh(*torus(400, 200), threads=1, progress=lambda *_: told.set())
+            for _ in range(2):
+                threading.Thread(target=work, daemon=True).start()
+            told.wait()
+            """ + last_words
+        paths = os.pathsep.join([str(pathlib.Path(__file__).parent), os.environ["PYTHONPATH"]])
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True,
+                              timeout=60, env=os.environ | {"PYTHONPATH": paths})
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return done.stdout
+
+    def test_the_interpreter_ends_while_threads_are_in_strake(self):
+        # What ends later may still use it, in the thread that ends the interpreter.
+        self.assertEqual(self.ends_beside_threads("pass"), "True\n")
+
+    def test_a_fork_does_not_wait_for_threads_that_it_has_not(self):
+        code = "if os.fork() == 0: atexit.unregister(small); sys.exit(0)"
+        self.assertEqual(self.ends_beside_threads(code), "True\n")
+
 
 class Documents(unittest.TestCase):
     def test_options_are_in_docstrings(self):
