@@ -1,5 +1,7 @@
 // Draws a polygon mesh into a PNG file, without a display.
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
@@ -10,14 +12,15 @@
 
 #include "common/artifact/meshfile/mesh_reader.h"
 #include "common/core/error.h"
+#include "common/core/number_text.h"
 #include "common/core/text.h"
 #include "common/stage/build_facts.h"
 #include "common/stage/console.h"
 #include "common/stage/program.h"
+#include "common/stage/value.h"
 #include "strake/render/camera.h"
 #include "strake/render/draw.h"
 #include "strake/render/image.h"
-#include "common/stage/value.h"
 #include "strake/render/line_file.h"
 #include "strake/render/scene.h"
 #include "strake/render/shown_run.h"
@@ -43,6 +46,18 @@ struct Arguments {
   DrawOptions draw;
 };
 
+/// As CLI::Range, which takes "nan".
+CLI::Validator number_from(double least, double most) {
+  const std::string range = fmt::format("{} to {}", least, most);
+  return CLI::Validator(
+      [=](const std::string& text) {
+        const std::optional<double> value = parse_number(text);
+        const bool is_inside = value && *value >= least && *value <= most;
+        return is_inside ? std::string() : fmt::format("'{}' is no number from {}", text, range);
+      },
+      "FLOAT in " + range);
+}
+
 void add_arguments(CLI::App& app, Arguments& arguments) {
   app.add_option(
          "mesh", arguments.mesh,
@@ -55,12 +70,13 @@ void add_arguments(CLI::App& app, Arguments& arguments) {
   app.add_option("--size", arguments.size, "Picture size in pixels, WIDTHxHEIGHT")
       ->capture_default_str();
   app.add_option("--azimuth", arguments.view.azimuth_deg, "Viewer's turn around the up axis, deg")
+      ->check(number_from(-360, 360))
       ->capture_default_str();
   app.add_option("--elevation", arguments.view.elevation_deg, "Viewer above the horizon, deg")
-      ->check(CLI::Range(-90.0, 90.0))
+      ->check(number_from(-90, 90))
       ->capture_default_str();
   app.add_option("--zoom", arguments.view.zoom, "Magnification; 1 shows the whole model")
-      ->check(CLI::Range(1e-3, 1e6))
+      ->check(number_from(1e-3, 1e6))
       ->capture_default_str();
   app.add_option("--target", arguments.target,
                  "Point in the middle of the picture, X,Y,Z in model units (default: the model's)");
@@ -69,13 +85,13 @@ void add_arguments(CLI::App& app, Arguments& arguments) {
       ->capture_default_str();
   app.add_flag("--edges", arguments.draw.edges, "Draw the edges of the polygons");
   app.add_option("--edge-width", arguments.draw.edge_width, "Width of the edges, pixels")
-      ->check(CLI::Range(0.1, 50.0))
+      ->check(number_from(0.1, 50))
       ->capture_default_str();
   app.add_option("--lines", arguments.lines,
                  "OBJ file with 'l' polylines to draw on the surface: group min blue, max red")
       ->type_name("FILE.obj");
   app.add_option("--line-width", arguments.line_width, "Width of the polylines, pixels")
-      ->check(CLI::Range(0.1, 50.0))
+      ->check(number_from(0.1, 50))
       ->capture_default_str();
   app.add_flag("--flat", arguments.flat, "One normal per face, no smooth shading");
   app.add_option("--samples", arguments.draw.samples, "Rays per pixel and axis")
@@ -110,6 +126,7 @@ void add_run_arguments(CLI::App& app, Arguments& arguments) {
 }
 
 /// \throw UsageError  where the picture would take the place of what is drawn, or of another model
+/// \throw InputError  where it cannot be written
 void check_output(const Arguments& arguments) {
   const std::filesystem::path output = arguments.output;
   if (lower_case(output.extension().string()) != ".png") {
@@ -117,6 +134,7 @@ void check_output(const Arguments& arguments) {
   }
   check_files({{"input", arguments.mesh}, {"input 'lines'", arguments.lines}}, arguments.output,
               "");
+  check_place("output", output);
 }
 
 void interpret(Arguments& arguments) {
@@ -126,7 +144,6 @@ void interpret(Arguments& arguments) {
   constexpr int kLargest = 16384;
   if (std::sscanf(arguments.size.c_str(), "%dx%d%c", &size.width, &size.height, &rest) != 2 ||
       size.width < 1 || size.height < 1 || size.width > kLargest || size.height > kLargest) {
-/// \throw InputError  where it cannot be written
     throw UsageError("--size '" + arguments.size + "': expected WIDTHxHEIGHT, each 1 to 16384");
   }
   if (!arguments.view_address.empty()) {
@@ -134,7 +151,6 @@ void interpret(Arguments& arguments) {
   } else {
     const std::string first = arguments.shown.surface == "input" ? "plain" : "sides";
     const std::string colour = arguments.colour.empty() ? first : arguments.colour;
-  check_place("output", output);
     std::string address = "#a=0," + arguments.shown.surface + "," + colour + "," + colour + "," +
                           (arguments.layers == "none" ? "" : arguments.layers);
     if (!arguments.section.empty()) address += "&section=" + arguments.section;
@@ -164,9 +180,19 @@ Camera camera_on(const Scene& scene, const View& view, const DrawOptions& pictur
   return Camera(used, view, picture.width, picture.height);
 }
 
+/// \param place  in the scene's frame, in which the model's diagonal is 1
+void check_near(const Vec3& place, const char* what) {
+  constexpr double kFarthest = 1e6;  // beyond it rays lose their digits
+  if (place.cwiseAbs().maxCoeff() <= kFarthest) return;
+  throw UsageError(
+      fmt::format("{} is more than {} diagonals away from the model", what, kFarthest));
+}
+
 /// The view from the command line, in the scene's frame.
 View view_in(const Scene& scene, View view) {
-  if (view.target) view.target = scene.place(*view.target);
+  if (!view.target) return view;
+  view.target = scene.place(*view.target);
+  check_near(*view.target, "--target");
   return view;
 }
 
@@ -180,6 +206,10 @@ void draw_run(const Arguments& arguments) {
   picture.edges = shown.has_edges;
   Scene scene(std::move(shown.mesh), arguments.mesh, arguments.flat, shown.frame);
   const auto& from = arguments.shown.camera;
+  if (from) {
+    check_near(from->first, "the view's camera");
+    check_near(from->second, "what the view looks at");
+  }
   const Camera camera =
       from ? Camera(from->first, from->second, kReportFieldOfView, picture.width, picture.height)
            : camera_on(scene, view_in(scene, arguments.view), picture);

@@ -40,10 +40,15 @@ double number(const std::string& text) {
 }
 
 Section read_section(const Words& words) {
-  if (words.size() < 2 || (words[0] != "x" && words[0] != "y" && words[0] != "z")) {
-    throw UsageError("section: expected x, y or z and a place from 0 to 1, as in y,0.5");
+  const bool has_axis =
+      words.size() >= 2 && (words[0] == "x" || words[0] == "y" || words[0] == "z");
+  const double place = has_axis ? number(words[1]) : -1;
+  const bool is_flipped = words.size() == 3 && words[2] == "flipped";
+  if (place < 0 || place > 1 || (words.size() > 2 && !is_flipped)) {
+    throw UsageError(
+        "section: expected x, y or z and a place from 0 to 1, as in y,0.5 or y,0.5,flipped");
   }
-  return {words[0][0] - 'x', number(words[1]) - 0.5, words.size() > 2 && words[2] == "flipped"};
+  return {words[0][0] - 'x', place - 0.5, is_flipped};
 }
 
 void read_pane(const Words& words, RunView& view) {

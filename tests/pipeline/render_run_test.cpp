@@ -22,6 +22,18 @@ TEST_F(RenderRun, AModelIsNotReplacedByItsPicture) {
   EXPECT_FALSE(std::filesystem::exists(file("part.jpg")));
 }
 
+TEST_F(RenderRun, CamerasThatAreNowhereAreRefused) {
+  must("strake sample part -o part.ply --faces 500");
+  const std::string draw = "strake-render part.ply -o part.png --size 64x64 --samples 1 ";
+  for (const std::string wrong :
+       {"--azimuth nan", "--azimuth inf", "--azimuth 1e308", "--elevation nan", "--elevation 91",
+        "--zoom nan", "--line-width nan", "--edge-width nan", "--target 1e300,0,0",
+        "--target=-1e12,0,0", "--target nan,0,0"}) {
+    must_fail(kUsage, draw + wrong, wrong.substr(0, wrong.find_first_of(" =")));
+  }
+  must(draw + "--azimuth -360 --elevation 90 --zoom 1e6 --target 1000,0,0");
+}
+
 TEST_F(RenderRun, DrawsEachLayerOfARunAndAgreesWithTheAddressOfAView) {
   must("strake sample part -o part.ply --faces 2000");
   must("strake remesh part.ply -q -o part.obj --vertices 400 --keep run");
@@ -68,6 +80,10 @@ TEST_F(RenderRun, DrawsEachLayerOfARunAndAgreesWithTheAddressOfAView) {
        {"--colour k_max", "--surface moon", "--layers edges+moon", "--section w,1",
         "--view '#camera=1,2'", "--surface input --colour colours", "--colour labels"}) {
     EXPECT_EQ(run("strake-render run -o wrong.png " + wrong).exit_code, 2) << wrong;
+  }
+  for (const std::string wrong : {"--section y,2", "--section y,-0.1", "--section y,nan",
+                                  "--section y,0.5,3", "--view '#camera=1e300,0,0,0,0,0'"}) {
+    EXPECT_EQ(run("strake-render run -o wrong.png --size 64x64 " + wrong).exit_code, 2) << wrong;
   }
   std::filesystem::create_directory(file("empty"));
   must_fail(3, "strake-render empty -o wrong.png", "no artifact of kind 'quads'");
