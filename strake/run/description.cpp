@@ -32,9 +32,9 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, ignored);
 }
 
-/// Regular files that a pattern matches, in alphabetical order.
-std::vector<std::string> matching_files(const fs::path& folder, const std::string& pattern) {
-  std::string whole;  // in which marks in the folder's name are no marks
+/// A pattern from the folder as an absolute one, in which marks in the folder's name are no marks.
+std::string absolute_pattern(const fs::path& folder, const std::string& pattern) {
+  std::string whole;
   if (fs::path(pattern).is_relative()) {
     for (const char c : folder.string() + "/") {
       if (c == '\\' || std::string_view(kPatternMarks).find(c) != std::string_view::npos) {
@@ -43,10 +43,14 @@ std::vector<std::string> matching_files(const fs::path& folder, const std::strin
       whole += c;
     }
   }
-  whole += pattern;
+  return whole + pattern;
+}
+
+/// Regular files that an absolute pattern matches, in alphabetical order.
+std::vector<std::string> matching_files(const std::string& pattern) {
   glob_t matches = {};
   std::vector<std::string> files;
-  if (::glob(whole.c_str(), 0, nullptr, &matches) == 0) {
+  if (::glob(pattern.c_str(), 0, nullptr, &matches) == 0) {
     for (std::size_t i = 0; i < matches.gl_pathc; ++i) {
       const fs::path file = without_dots(matches.gl_pathv[i]);
       if (is_file(file)) files.push_back(file.string());
@@ -275,10 +279,12 @@ class Reader {
       if (!is_there) note_missing(description_.models.back(), file, place);
       return;
     }
-    const std::vector<std::string> paths = matching_files(folder_, text);
+    const std::string pattern = absolute_pattern(folder_, text);
+    const std::vector<std::string> paths = matching_files(pattern);
     if (paths.empty()) place.fail(fmt::format("no file matches '{}'", file.string()));
     if (!name.empty()) place.fail("patterns have no single name; list them under 'models: [...]'");
     for (const std::string& path : paths) add_model(fs::path(path).stem().string(), place, path);
+    description_.model_patterns.push_back({text, fs::path(pattern).lexically_normal().string()});
   }
 
   static void note_missing(ModelEntry& model, const fs::path& file, const Place& place) {

@@ -58,6 +58,12 @@ struct Variant {
   std::vector<Setting> settings;
 };
 
+/// A pattern that files of models match: "scans/*.ply".
+struct ModelPattern {
+  std::string text;   ///< as written
+  std::string whole;  ///< absolute, marks of the folder's own name escaped
+};
+
 /// A file the user wants, for every model and variant.
 struct Delivery {
   std::string artifact;
@@ -71,6 +77,7 @@ struct Description {
   std::vector<Rule> rules;      ///< each after those whose artifacts it needs
   std::vector<Setting> settings;
   std::vector<ModelEntry> models;
+  std::vector<ModelPattern> model_patterns;
   std::vector<Variant> variants;  ///< at least one
   std::vector<Delivery> deliveries;
   std::vector<std::string> sbatch_options;  ///< for all jobs on a cluster

@@ -1,6 +1,7 @@
 #include "strake/run/plan.h"
 
 #include <fmt/format.h>
+#include <fnmatch.h>
 
 #include <algorithm>
 #include <array>
@@ -281,6 +282,7 @@ class Planner {
       step = exported(step, wanted, variant);
     }
     const fs::path target = real_path(file);
+    check_models_stay(file, place);
     if (const auto source = sources_.find(target); source != sources_.end()) {
       place.fail(fmt::format("'{}' is {}", file, source->second));
     }
@@ -297,6 +299,17 @@ class Planner {
     }
     std::vector<std::string>& files = plan_.steps[step].deliver_to;
     if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
+  }
+
+  /// Refuses a file that would be a model of the next run.
+  void check_models_stay(const std::string& file, const Place& place) const {
+    for (const ModelPattern& pattern : description_.model_patterns) {
+      if (::fnmatch(pattern.whole.c_str(), file.c_str(), FNM_PATHNAME | FNM_PERIOD) != 0) continue;
+      place.fail(
+          fmt::format("'{}' would be a model itself, as '{}' in 'models' matches it; write it to "
+                      "another folder",
+                      file, pattern.text));
+    }
   }
 
   /// The step that turns a quads artifact into a mesh file of another format.

@@ -201,6 +201,26 @@ TEST_F(PlanTest, AnOutputIsNotThePipeline) {
   }
 }
 
+/// It would work once: the next run would take the output for a model.
+TEST_F(PlanTest, AnOutputIsNoModelOfTheNextRun) {
+  const auto said = [&](const std::string& patterns, const std::string& output) {
+    return complaint("version: 1\nmodels: [" + patterns + "]\noutputs: {fitted: \"" + output +
+                     "\"}\n");
+  };
+  EXPECT_NE(said("'*.obj'", "{model}-quads.obj").find("/a-quads.obj' would be a model"),
+            std::string::npos);
+  EXPECT_NE(said("b.ply, './*.obj'", "{model}-quads.obj").find("'./*.obj' in 'models' matches"),
+            std::string::npos);
+  std::filesystem::create_directory(folder_ / "out");
+  put("out/c.obj", "v 0 0 0\n");
+  EXPECT_NE(said("'*/*.obj'", "out/../out/{model}-quads.obj").find("another folder"),
+            std::string::npos);
+  EXPECT_FALSE(plan("models: ['*.obj']\noutputs: {quads: ['out/{model}.obj', '{model}.ply', "
+                    "'.{model}.obj']}\n")
+                   .steps.empty());
+  std::filesystem::remove_all(folder_ / "out");
+}
+
 TEST_F(PlanTest, LinksToAModelAreTheModel) {
   std::filesystem::create_symlink(".", folder_ / "self");
   std::filesystem::create_symlink("a.obj", folder_ / "link.obj");
