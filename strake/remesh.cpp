@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -175,8 +176,13 @@ void RemeshCommand::make_output() {
   if (!keep.empty()) KeptFolder(keep, chain.stages()).end(port);
   const Report* measures = no_evaluate ? nullptr : &chain.measure(session, port);
   const QuadMesh& quads = session.get<QuadMesh>(port);
+  // Written first, and there last: where one of the two cannot be written there is neither.
+  std::optional<AtomicFile> report;
+  if (!shell.report_path.empty()) {
+    write_text(report.emplace(shell.report_path), records_json(session.records()));
+  }
   save_result(output, quads, input, asked);
-  if (!shell.report_path.empty()) write_text(shell.report_path, records_json(session.records()));
+  if (report) report->commit();
   if (shell.verbose) {
     for (const StageRecord& record : session.records()) {
       console.say("\n" + record.provenance.stage + "\n" + report_text(record.report));

@@ -28,6 +28,8 @@ class AtomicFile {
   AtomicFile& operator=(const AtomicFile&) = delete;
   ~AtomicFile();
 
+  /// The file as it was named, or what it is a link to.
+  [[nodiscard]] const std::filesystem::path& target() const { return target_; }
   /// Where to write; the file exists and is empty, with the usual permissions.
   [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
 

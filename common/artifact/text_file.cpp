@@ -9,11 +9,15 @@ namespace strake {
 
 void write_text(const std::filesystem::path& path, const std::string& text, Flush flush) {
   AtomicFile file(path);
+  write_text(file, text);
+  file.commit(flush);
+}
+
+void write_text(AtomicFile& file, const std::string& text) {
   std::ofstream stream(file.temporary(), std::ios::binary);
   stream << text;
   stream.close();
-  if (!stream) throw InputError(path.string() + ": cannot be written; is the disk full?");
-  file.commit(flush);
+  if (!stream) throw InputError(file.target().string() + ": cannot be written; is the disk full?");
 }
 
 std::string read_text(const std::filesystem::path& path) {

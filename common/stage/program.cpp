@@ -117,6 +117,11 @@ void make_output(const Stage& stage, const Paths& paths, const ShellOptions& she
   StageResult result = run_stage(stage, inputs, console);
   record.report = std::move(result.report);
   for (const std::string& warning : record.report.warnings()) console.say("warning: " + warning);
+  // Written first, and there last: where one of the two cannot be written there is neither.
+  std::optional<AtomicFile> report;
+  if (!shell.report_path.empty()) {
+    write_text(report.emplace(shell.report_path), record_json(record));
+  }
   if (result.output) {
     console.report("writing " + paths.output, 1);
     save_value(paths.output, *result.output, inputs.mesh_of(*result.output),
@@ -124,7 +129,7 @@ void make_output(const Stage& stage, const Paths& paths, const ShellOptions& she
   } else if (!paths.output.empty()) {
     write_text(paths.output, record_json(record));
   }
-  if (!shell.report_path.empty()) write_text(shell.report_path, record_json(record));
+  if (report) report->commit();
   // After the files: where one cannot be written, the error is all that is said.
   if (!result.output && !shell.quiet) std::fputs(report_text(record.report).c_str(), stdout);
   if (shell.verbose && result.output) console.say(report_text(record.report));

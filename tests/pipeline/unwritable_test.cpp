@@ -45,5 +45,21 @@ TEST_F(Unwritable, LinksToWhatIsNotThereAreFollowed) {
   EXPECT_TRUE(fs::is_regular_file(file("scratch/quads.obj")));
 }
 
+/// On a disk with room for the output alone.
+TEST_F(Unwritable, AReportTakesTheOutputWithIt) {
+  put("square.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
+  const std::string command =
+      " remesh square.obj -q -o out.obj --vertices 9 --report report.json";
+  const Outcome full =
+      shell("sh -c 'trap \"\" XFSZ; ulimit -f 4; exec \"$@\"' - " STRAKE_BIN "/strake" + command);
+  EXPECT_EQ(full.exit_code, kBadInput) << full.err;
+  EXPECT_NE(full.err.find("report.json"), std::string::npos) << full.err;
+  EXPECT_FALSE(fs::exists(file("out.obj")));
+  EXPECT_FALSE(fs::exists(file("report.json")));
+  must("strake" + command);
+  EXPECT_LT(fs::file_size(file("out.obj")), 2048u) << "or the room is too little for it";
+  EXPECT_TRUE(fs::exists(file("report.json")));
+}
+
 }  // namespace
 }  // namespace strake::pipeline_test
