@@ -155,7 +155,8 @@ void check_artifact(const ArtifactInfo& info, const std::string& path,
     own = read_tri_mesh(found->second);
   }
   const std::string content = content_of(value, own ? &*own : nullptr);
-  if (!content.empty() && content != info.content) changed("attribute 'content'");
+  if (info.says_content && !content.empty() && content != info.content)
+    changed("attribute 'content'");
 }
 
 /// \param meshes  undamaged ones before it, paths by mesh id; another one is added

@@ -81,7 +81,8 @@ struct ArtifactInfo {
   ArtifactKind kind = ArtifactKind::mesh;
   std::int64_t format_version = kFormatVersion;
   std::string mesh_id;
-  std::string content;  ///< `content_digest`
+  std::string content;        ///< `content_digest`
+  bool says_content = false;  ///< in a file from before there was that, it is `digest_file`
   Provenance provenance;
   std::vector<Dataset> datasets;  ///< of the artifact's own group
 };

@@ -10,6 +10,7 @@ namespace strake {
 namespace {
 
 constexpr const char* kContent = "content";
+constexpr const char* kProvenance = "provenance";
 constexpr std::array<const char*, 7> kKindNames = {"mesh",  "tensor",      "field", "lines",
                                                    "quads", "tensor_part", "size"};
 
@@ -36,6 +37,15 @@ std::string content_of(const hdf5::Reader& file, const std::filesystem::path& pa
   return file.has_attribute(kContent) ? file.text_attribute(kContent) : digest_file(path);
 }
 
+Provenance read_provenance(const hdf5::Reader& file) {
+  const std::string text = file.text_attribute(kProvenance);
+  try {
+    return Provenance::from_json(text);
+  } catch (const InputError&) {  // does not know the file
+    file.refuse(kProvenance, "does not say how it was made; the file is damaged");
+  }
+}
+
 }  // namespace
 
 std::string kind_name(ArtifactKind kind) { return kKindNames[static_cast<std::size_t>(kind)]; }
@@ -48,7 +58,7 @@ ArtifactWriter::ArtifactWriter(const std::filesystem::path& path, ArtifactKind k
   file_->attribute("/", "kind", kind_name(kind));
   file_->attribute("/", "format_version", kFormatVersion);
   file_->attribute("/", "mesh_id", mesh_id);
-  file_->attribute("/", "provenance", provenance.to_json());
+  file_->attribute("/", kProvenance, provenance.to_json());
   file_->group(group_);
   file_->group("/VTKHDF");
   file_->attribute("/VTKHDF", "Version", std::vector<std::int64_t>{1, 0});
@@ -128,7 +138,8 @@ ArtifactInfo read_artifact_info(const std::filesystem::path& path) {
   info.format_version = file.integer_attribute("format_version");
   info.mesh_id = file.text_attribute("mesh_id");
   info.content = content_of(file, path);
-  info.provenance = Provenance::from_json(file.text_attribute("provenance"));
+  info.says_content = file.has_attribute(kContent);
+  info.provenance = read_provenance(file);
   const std::string group = "/" + kind_name(info.kind);
   constexpr std::array<const char*, 4> kTypes = {"u8", "i32", "i64", "f64"};
   for (const hdf5::DatasetInfo& dataset : file.list(group)) {

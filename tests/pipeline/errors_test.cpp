@@ -167,6 +167,18 @@ TEST_F(Errors, CheckTellsThatAFieldWasChanged) {
   must_fail(kBadInput, "strake check field.hdf mesh.hdf", "changed after it was made");
 }
 
+TEST_F(Errors, CheckTakesArtifactsFromBeforeTheyHadAContent) {
+  run_chain("torus.ply", "");
+  const std::string change =
+      "import h5py, numpy\n"
+      "with h5py.File('mesh.hdf', 'r+') as f: del f.attrs['content']\n"
+      "with h5py.File('field.hdf', 'r+') as f: f.attrs['provenance'] = numpy.bytes_('{}')\n";
+  put("change.py", change);
+  ASSERT_EQ(shell("/usr/bin/python3 change.py").exit_code, 0);
+  must("strake check mesh.hdf");
+  must_fail(kBadInput, "strake check field.hdf", "field.hdf: 'provenance' does not say");
+}
+
 /// What every stage refuses is not sound.
 TEST_F(Errors, CheckTellsWhatStagesRefuse) {
   run_chain("torus.ply", "");
