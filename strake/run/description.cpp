@@ -192,6 +192,7 @@ class Reader {
     }
     if (description_.models.empty()) models.fail("there is no model");
     check_side_inputs();
+    check_sample_name();
   }
 
   void read_model(const YamlView::Entry& entry) {
@@ -243,6 +244,20 @@ class Reader {
           "stage '{}' takes '{}' for its input '{}', but no stage makes it and no model has it "
           "among its 'inputs'",
           input.rule->name, input.name, input.port));
+    }
+  }
+
+  /// What makes models goes by the name of its program, so that no stage can have it then.
+  void check_sample_name() const {
+    const auto is_made = [](const ModelEntry& model) { return model.file.empty(); };
+    if (std::none_of(description_.models.begin(), description_.models.end(), is_made)) return;
+    const std::string taken = sample_rules().front().name;
+    for (const Rule& rule : description_.rules) {
+      if (rule.name != taken) continue;
+      rule.place.fail(
+          fmt::format("'{0}' is what makes the models with 'sample:'; give this stage another name "
+                      "and 'program: {1}'",
+                      taken, rule.program));
     }
   }
 
