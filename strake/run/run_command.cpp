@@ -118,6 +118,15 @@ void RunCommand::check_engine_options() const {
   }
 }
 
+void RunCommand::refuse_empty_range(const Plan& plan) const {
+  const auto is_first = [&](const Step& step) { return step.rule == from; };
+  if (from.empty() || std::any_of(plan.steps.begin(), plan.steps.end(), is_first)) return;
+  throw UsageError(fmt::format(
+      "--from {0} --until {1} leaves nothing to run: '{1}' does not need '{0}'; leave one of them "
+      "out",
+      from, pipeline.until));
+}
+
 void RunCommand::refuse_what_lies_before(const Plan& plan,
                                          const std::vector<StepState>& states) const {
   if (from.empty()) return;
@@ -307,6 +316,7 @@ int RunCommand::run() {
   for (bool is_first = true;; is_first = false) {
     KnownDigests digests(store);
     const std::vector<StepState> states = survey(
+  refuse_empty_range(plan);
         plan, store, digests, forced_rules, verify ? Store::Check::content : Store::Check::stamp);
     refuse_what_lies_before(plan, states);
     for (const StepState& state : states) {

@@ -44,6 +44,8 @@ struct RunCommand {
   void check_engine_options() const;
   /// Memory for all steps together, in bytes. \throw UsageError where --memory is none
   [[nodiscard]] std::int64_t wanted_memory() const;
+  /// \throw UsageError where --until comes before --from
+  void refuse_empty_range(const Plan& plan) const;
   void refuse_what_lies_before(const Plan& plan, const std::vector<StepState>& states) const;
   void print_plan(const Plan& plan, const std::vector<StepState>& states) const;
   void write_outputs(const Plan& plan, const std::vector<StepState>& states,

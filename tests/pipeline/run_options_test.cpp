@@ -57,7 +57,9 @@ TEST_F(RunOptions, UntilAndFrom) {
   EXPECT_EQ(names(run_steps("--until tensor"), "ran"), "torus import, torus sample, torus tensor");
   EXPECT_FALSE(fs::exists(file("torus.obj")));
   must_fail(kPrecondition, "strake run --from trace", "torus smooth");
-  must_fail(kPrecondition, "strake run --from mesh --until smooth", "torus smooth");
+  must_fail(kPrecondition, "strake run --from trace --until mesh", "torus smooth");
+  must_fail(kUsage, "strake run --from mesh --until smooth", "leaves nothing to run");
+  must_fail(kUsage, "strake submit -n --from trace --until import", "leaves nothing to run");
   EXPECT_EQ(names(run_steps("--from smooth --until trace"), "ran"), "torus smooth, torus trace");
   must_fail(kUsage, "strake run --from trase", "did you mean 'trace'");
   must_fail(kUsage, "strake run --until trase", "did you mean 'trace'");
