@@ -208,11 +208,17 @@ std::string shown_path(const fs::path& file) {
 
 void deliver(const fs::path& artifact, const fs::path& file) {
   std::error_code error;
+  if (!fs::exists(artifact, error)) {
+    throw InputError(
+        fmt::format("'{}' has gone from the store before it was copied to '{}'; run again",
+                    artifact.string(), file.string()));
+  }
   if (file.has_parent_path()) fs::create_directories(file.parent_path(), error);
   AtomicFile target(file);
   fs::copy_file(artifact, target.temporary(), fs::copy_options::overwrite_existing, error);
   if (error) {
-    throw InputError(fmt::format("cannot write '{}': {}", file.string(), error.message()));
+    throw InputError(fmt::format("cannot copy '{}' to '{}': {}", artifact.string(), file.string(),
+                                 error.message()));
   }
   target.commit();
 }

@@ -54,7 +54,7 @@ std::vector<std::string> files_to_write(const Plan& plan, const std::vector<Step
 std::string shown_path(const std::filesystem::path& file);
 
 /// Copies an artifact to a file the user wants; the file appears whole or not at all.
-/// \throw InputError
+/// \throw InputError naming the artifact where it has gone, else both
 void deliver(const std::filesystem::path& artifact, const std::filesystem::path& file);
 
 }  // namespace strake
