@@ -148,6 +148,14 @@ void RunCommand::refuse_what_lies_before(const Plan& plan,
   }
 }
 
+std::set<std::string> RunCommand::forced_steps(const Plan& plan) const {
+  std::set<std::string> steps;
+  for (const Step& step : plan.steps) {
+    if (std::find(forced.begin(), forced.end(), step.rule) != forced.end()) steps.insert(step.id);
+  }
+  return steps;
+}
+
 void RunCommand::print_plan(const Plan& plan, const std::vector<StepState>& states) const {
   for (std::size_t s = 0; s < plan.steps.size(); ++s) {
     const StepState& state = states[s];
@@ -307,17 +315,17 @@ int RunCommand::run() {
   if (!quiet) warn_of_idle(idle_settings(plan, selection.settings));
   const Store store(plan.store, dry_run ? Store::Access::look_only : Store::Access::full);
   store.check_format();
-  std::set<std::string> forced_rules(forced.begin(), forced.end());
   check_rule_name(from, description, "--from");
+  refuse_empty_range(plan);
   for (const std::string& name : forced) check_rule_name(name, description, "--force");
+  std::set<std::string> to_force = forced_steps(plan);
 
   std::set<std::string> made;
   int fruitless = 0;
   for (bool is_first = true;; is_first = false) {
     KnownDigests digests(store);
     const std::vector<StepState> states = survey(
-  refuse_empty_range(plan);
-        plan, store, digests, forced_rules, verify ? Store::Check::content : Store::Check::stamp);
+        plan, store, digests, to_force, verify ? Store::Check::content : Store::Check::stamp);
     refuse_what_lies_before(plan, states);
     for (const StepState& state : states) {
       if (!quiet && state.damaged) {
@@ -356,7 +364,7 @@ int RunCommand::run() {
         throw InputError(
             "inputs of steps keep being changed or damaged while they are in use; see above");
       }
-      forced_rules.clear();
+      for (const std::string& step : round.made) to_force.erase(step);
       continue;
     }
     const int exit_code = round.exit_code;

@@ -47,6 +47,8 @@ struct RunCommand {
   /// \throw UsageError where --until comes before --from
   void refuse_empty_range(const Plan& plan) const;
   void refuse_what_lies_before(const Plan& plan, const std::vector<StepState>& states) const;
+  /// Ids of the steps that --force names.
+  [[nodiscard]] std::set<std::string> forced_steps(const Plan& plan) const;
   void print_plan(const Plan& plan, const std::vector<StepState>& states) const;
   void write_outputs(const Plan& plan, const std::vector<StepState>& states,
                      KnownDigests& digests) const;

@@ -71,7 +71,7 @@ class Surveyor {
   void look_at(std::size_t s) {
     const Step& step = plan_.steps[s];
     StepState& state = states_[s];
-    state.forced = forced_.count(step.rule) != 0;
+    state.forced = forced_.count(step.id) != 0;
     Provenance provenance = step_provenance(step);
     for (const StepInput& input : step.inputs) {
       if (input.step == kNoStep) {

@@ -30,7 +30,7 @@ struct StepState {
 EntryName entry_name(const Step& step, const StepState& state);
 
 /// Compares a plan with the store. Reads the bytes of files only where their stamps have changed.
-/// \param forced  rules that are stale whatever is in the store
+/// \param forced  ids of steps that are stale whatever is in the store
 /// \param check   how closely to look at what is in the store
 /// \return one state per step
 /// \throw InputError where a model file cannot be read

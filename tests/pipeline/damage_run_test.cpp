@@ -198,6 +198,19 @@ TEST_F(Damage, WhileTheConsumerRuns) {
   }
 }
 
+/// What is asked for anew and was not reached before the damage is asked for still.
+TEST_F(Damage, AForcedStepAfterItIsRunAllTheSame) {
+  copy_programs();
+  const std::string once = file("once").string();
+  put_before("smooth", "if [ ! -e " + once + " ]; then : > " + once + "; rm -r \"${2%/*}\"; fi");
+  fs::remove_all(field_.parent_path());
+  const Outcome outcome = shell("bin/strake run --force smooth --force mesh");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("tensor.hdf' is gone"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("torus mesh: ran"), std::string::npos) << outcome.err;
+  EXPECT_EQ(artifacts(), whole_);
+}
+
 /// As where `strake gc` is run again and again: what a step needs goes, but the run gets on.
 TEST_F(Damage, InputsMayGoAsOftenAsTheRunGetsOn) {
   copy_programs();
