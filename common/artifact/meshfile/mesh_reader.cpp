@@ -125,6 +125,9 @@ std::vector<std::string> ReadReport::warnings() const {
   }
   add(missing_vertices, "vertices missing that the file announces (it is cut off or damaged)");
   add(missing_faces, "faces missing that the file announces (it is cut off or damaged)");
+  add(unannounced_faces, "faces read beyond the number that the file announces (which is wrong)");
+  add(left_out_faces,
+      "faces left out beyond the number that the file announces (it is wrong or damaged)");
   add(bad_index_faces, "faces skipped that name vertices which are not there");
   add(few_corner_faces, "faces skipped that have fewer than 3 corners");
   add(non_finite_vertices, "vertices without finite coordinates");
@@ -139,6 +142,8 @@ void ReadReport::add_to(Report& report) const {
   report.set("file.format", format);
   report.set("file.missing_vertices", missing_vertices);
   report.set("file.missing_faces", missing_faces);
+  report.set("file.unannounced_faces", unannounced_faces);
+  report.set("file.left_out_faces", left_out_faces);
   report.set("file.bad_index_faces", bad_index_faces);
   report.set("file.few_corner_faces", few_corner_faces);
   report.set("file.non_finite_vertices", non_finite_vertices);

@@ -22,6 +22,8 @@ struct ReadReport {
   std::int64_t non_finite_faces = 0;     ///< skipped: use a non-finite vertex
   std::int64_t missing_vertices = 0;     ///< announced but not in the file
   std::int64_t missing_faces = 0;        ///< announced but not in the file, or cut off
+  std::int64_t unannounced_faces = 0;    ///< STL: read beyond the number that the file announces
+  std::int64_t left_out_faces = 0;       ///< in the file, beyond the number that it announces
   std::int64_t skipped_lines = 0;        ///< text that is not understood
   std::int64_t untextured_corners = 0;   ///< at (0, 0), where others have texture coordinates
   std::int64_t welded_vertices = 0;  ///< STL: corners merged because their coordinates are equal

@@ -68,6 +68,18 @@ bool read_face(TextScanner& scanner, PolyMesh& mesh, ReadReport& report) {
   return true;
 }
 
+/// Counts the faces that follow, and the lines that are none.
+std::int64_t count_faces(TextScanner& scanner, ReadReport& report) {
+  std::int64_t count = 0;
+  PolyMesh face;
+  while (read_face(scanner, face, report)) {
+    count += face.face_count();
+    face = {};
+    scanner.next_line();
+  }
+  return count;
+}
+
 }  // namespace
 
 bool looks_like_off(std::string_view bytes) {
@@ -104,6 +116,7 @@ PolyMesh read_off(std::string_view bytes, ReadReport& report) {
     scanner.next_line();
   }
   report.missing_faces = faces - read;
+  if (report.missing_faces == 0) report.left_out_faces = count_faces(scanner, report);
   return mesh;
 }
 

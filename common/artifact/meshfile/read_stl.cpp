@@ -88,8 +88,15 @@ PolyMesh read_binary(std::string_view bytes, ReadReport& report) {
   std::size_t announced = announced_facets(bytes);
   const std::size_t there = (bytes.size() - kHeaderBytes) / kFacetBytes;
   if (announced == 0) announced = there;  // written by programs that stream
-  const std::size_t count = std::min(announced, there);
+  std::size_t count = std::min(announced, there);
   report.missing_faces = static_cast<std::int64_t>(announced - count);
+  if (count < there) {
+    // Where all bytes are whole facets the number is wrong rather than the file damaged.
+    const bool are_facets = (bytes.size() - kHeaderBytes) % kFacetBytes == 0;
+    (are_facets ? report.unannounced_faces : report.left_out_faces) =
+        static_cast<std::int64_t>(there - count);
+    if (are_facets) count = there;
+  }
   check_countable(3 * count, "face corners");
   PolyMesh mesh;
   mesh.corners.reserve(3 * count);

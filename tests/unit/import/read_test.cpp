@@ -110,6 +110,16 @@ TEST(ReadOff, CountsWhatIsMissing) {
   EXPECT_EQ(report.missing_faces, 8);
 }
 
+TEST(ReadOff, SaysWhatItLeavesOut) {
+  ReadReport report;
+  const std::string text = "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n";
+  EXPECT_EQ(parse(text + "\n# end\n").face_count(), 1);
+  EXPECT_EQ(parse(text + "3 0 2 3\nend\n3 2 3 0 1 1 1\n3 0", report).face_count(), 1);
+  EXPECT_EQ(report.left_out_faces, 2);
+  EXPECT_EQ(report.skipped_lines, 1);
+  EXPECT_EQ(report.warnings().size(), 2U);
+}
+
 TEST(ReadOff, RefusesBinaryAndHigherDimensions) {
   ReadReport report;
   EXPECT_THROW(parse("OFF BINARY\n\0\0", report), InputError);
@@ -158,6 +168,19 @@ TEST(ReadStl, DoesNotBelieveTheCount) {
   const PolyMesh mesh = parse(binary_stl(kTwoFacets, 2000000000), report, ".stl");
   EXPECT_EQ(mesh.face_count(), 2);
   EXPECT_EQ(report.missing_faces, 2000000000 - 2);
+}
+
+TEST(ReadStl, ReadsMoreThanAnnouncedWhereAllIsFacets) {
+  ReadReport report;
+  const std::string bytes = binary_stl(kTwoFacets, 1);
+  EXPECT_EQ(parse(bytes, report, ".stl").face_count(), 2);
+  EXPECT_EQ(report.unannounced_faces, 1);
+  EXPECT_EQ(report.warnings().size(), 1U);
+  EXPECT_EQ(parse(bytes + "tail", report, ".stl").face_count(), 1);
+  EXPECT_EQ(report.left_out_faces, 1);
+  EXPECT_EQ(report.warnings().size(), 1U);
+  EXPECT_EQ(parse(binary_stl(kTwoFacets, 2) + "tail", report, ".stl").face_count(), 2);
+  EXPECT_TRUE(report.warnings().empty());
 }
 
 TEST(ReadStl, Ascii) {
