@@ -1,11 +1,13 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
 #include "common/artifact/meshfile/mesh_reader.h"
 
 /// One parser per format, internal to the reader. Each returns all vertices and faces as in the
-/// file, with kNone for corners whose index cannot be valid; `read_mesh` checks and compacts.
+/// file, with kNone for corners whose index cannot be valid, and colours as they stand there;
+/// `read_mesh` checks, scales and compacts.
 /// All throw InputError, without the file's name, where nothing can be made of the bytes.
 namespace strake::meshfile {
 
@@ -18,6 +20,10 @@ PolyMesh read_stl(std::string_view bytes, ReadReport& report);
 /// labels, segment, segment_id, region, group, part, patch, material, material_index, object,
 /// category, and what our own writer names after OBJ: o, g, usemtl.
 bool is_label_name(std::string_view name);
+
+/// Brings colours to shares of 1. Where red, green or blue is 2 or more they go from 0 to 255, and
+/// likewise alpha; shares may be a little above 1. What is no finite number becomes 1.
+void finish_colours(std::vector<Colour>& colours);
 
 /// Whether the bytes are an STL file; binary ones are told by their size.
 bool looks_like_stl(std::string_view bytes);

@@ -21,6 +21,24 @@ void check_countable(std::size_t count, const char* what) {
   }
 }
 
+void finish_colours(std::vector<Colour>& colours) {
+  constexpr double kLeastByte = 2;
+  double colour = 0;  // the largest
+  double alpha = 0;
+  for (const Colour& c : colours) {
+    for (int i = 0; i < 4; ++i) {
+      double& largest = i < 3 ? colour : alpha;
+      if (std::isfinite(c[i])) largest = std::max(largest, c[i]);
+    }
+  }
+  for (Colour& c : colours) {
+    for (int i = 0; i < 4; ++i) {
+      const double whole = (i < 3 ? colour : alpha) >= kLeastByte ? 255 : 1;
+      c[i] = std::isfinite(c[i]) ? std::clamp(c[i] / whole, 0.0, 1.0) : 1;
+    }
+  }
+}
+
 }  // namespace meshfile
 
 namespace {
@@ -164,6 +182,7 @@ PolyMesh parse_mesh(std::string_view bytes, std::string_view extension, ReadRepo
       format != Format::unknown && promised != Format::unknown && format != promised;
   if (format == Format::unknown) format = promised;
   PolyMesh mesh = read_format(format, bytes, report);
+  meshfile::finish_colours(mesh.attributes.colour);
   const bool has_faces = mesh.face_count() > 0 || report.missing_faces > 0;
   drop_unusable_faces(mesh, report);
   if (!has_faces && mesh.vertex_count() > 0) {

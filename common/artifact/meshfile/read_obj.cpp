@@ -80,7 +80,7 @@ class ObjReader {
   PolyMesh finish(ReadReport& report) {
     check_countable(mesh_.positions.size(), "vertices");
     if (mesh_.positions.empty()) throw InputError("holds no vertices; it does not look like OBJ");
-    if (!attributes().colour.empty()) finish_colours();
+    if (!attributes().colour.empty()) attributes().colour.resize(mesh_.positions.size(), kWhite);
     if (!corner_texture_.empty()) {
       corner_texture_.resize(mesh_.corners.size(), kNone);
       attributes().texture.reserve(mesh_.corners.size());
@@ -99,8 +99,6 @@ class ObjReader {
 
  private:
   static constexpr Colour kWhite = {1, 1, 1, 1};
-  /// Where a colour has this much, all go from 0 to 255; shares may be a little above 1.
-  static constexpr double kLeastByte = 2;
 
   /// Labels of one kind, and the one that is in force.
   struct Layer {
@@ -149,19 +147,6 @@ class ObjReader {
       text += (text.empty() ? "" : " ") + std::string(word);
     }
     return text;
-  }
-
-  /// Some programs write 0 to 255.
-  void finish_colours() {
-    attributes().colour.resize(mesh_.positions.size(), kWhite);
-    double largest = 0;
-    for (const Colour& c : attributes().colour) largest = std::max({largest, c[0], c[1], c[2]});
-    const bool is_bytes = largest >= kLeastByte;
-    for (Colour& c : attributes().colour) {
-      for (int i = 0; i < 3; ++i) {
-        c[i] = std::isfinite(c[i]) ? std::clamp(c[i] / (is_bytes ? 255 : 1), 0.0, 1.0) : 1;
-      }
-    }
   }
 
   PolyMesh mesh_;

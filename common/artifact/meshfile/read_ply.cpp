@@ -65,9 +65,11 @@ bool has_all(const std::array<int, N>& properties, std::size_t count = N) {
                      [](int property) { return property >= 0; });
 }
 
-/// What makes the largest value of a type 1; colours that are floating-point numbers are so.
-double colour_scale(PlyType type) {
-  return is_integer(type) ? 1 / (std::exp2(8.0 * static_cast<double>(size_of(type))) - 1) : 1;
+/// A colour as a share of the largest value of its type; floating-point numbers as they are.
+double colour_of(double value, PlyType type) {
+  if (!is_integer(type)) return value;
+  const double scale = 1 / (std::exp2(8.0 * static_cast<double>(size_of(type))) - 1);
+  return std::isfinite(value) ? std::clamp(value * scale, 0.0, 1.0) : 0;
 }
 
 RowTargets find_targets(const PlyElement& element) {
@@ -199,8 +201,7 @@ class ElementReader {
     }
     const double finite = std::isfinite(value) ? value : 0;
     for (int i = 0; i < 4; ++i) {
-      if (targets_.colour[i] != p) continue;
-      colour_[i] = std::clamp(finite * colour_scale(property.type), 0.0, 1.0);
+      if (targets_.colour[i] == p) colour_[i] = colour_of(value, property.type);
     }
     for (int i = 0; i < 2; ++i) {
       if (targets_.texture[i] == p) texture_[i] = finite;

@@ -75,6 +75,34 @@ TEST(Attributes, ColoursALittleAboveOneAreShares) {
   EXPECT_EQ(first("51")[0][0], 0.2);
 }
 
+/// An ascii PLY file of one triangle with these properties and values of its vertices.
+std::string triangle_ply(const std::string& properties, const std::array<const char*, 3>& values) {
+  std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\n" +
+      properties + "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  const std::array<const char*, 3> places = {"0 0 0 ", "1 0 0 ", "1 1 0 "};
+  for (int v = 0; v < 3; ++v) text += places[v] + (values[v] + std::string("\n"));
+  return text + "3 0 1 2\n";
+}
+
+TEST(Attributes, FloatingPointColoursOfAPlyFileMayBeBytes) {
+  std::string properties;
+  for (const std::string name : {"red", "green", "blue", "alpha"}) {
+    properties += "property float " + name + "\n";
+  }
+  const auto colours = [&](const std::array<const char*, 3>& values) {
+    return parsed(triangle_ply(properties, values), ".ply").attributes.colour;
+  };
+  using Colours = std::vector<Colour>;
+  EXPECT_EQ(colours({"255 51 0 255", "0 102 0 0", "0 0 300 51"}),
+            (Colours{{1, 0.2, 0, 1}, {0, 0.4, 0, 0}, {0, 0, 1, 0.2}}));
+  EXPECT_EQ(colours({"255 51 0 1", "0 102 0 0.5", "0 0 0 1"}),
+            (Colours{{1, 0.2, 0, 1}, {0, 0.4, 0, 0.5}, {0, 0, 0, 1}}));
+  EXPECT_EQ(colours({"1 0.5 -1 1", "0 1.0001 0 0", "0 0 nan 0.25"}),
+            (Colours{{1, 0.5, 0, 1}, {0, 1, 0, 0}, {0, 0, 1, 0.25}}));
+}
+
 TEST(Attributes, OfFacesThatAreSkippedAreSkipped) {
   ReadReport report;
   const PolyMesh mesh = parse_mesh(
