@@ -177,6 +177,10 @@ class ElementReader {
       mesh_.attributes.labels[i].of_face.push_back(label_[i]);
     }
     if (targets_.texture_list < 0) return;
+    // A corner with but one number has no coordinates.
+    const std::size_t textured = std::min(texture_list_.size() / 2, list_.size());
+    report_.untextured_corners += static_cast<std::int64_t>(list_.size() - textured);
+    texture_list_.resize(2 * textured);
     texture_list_.resize(2 * list_.size(), 0);
     for (std::size_t i = 0; i < list_.size(); ++i) {
       mesh_.attributes.texture.push_back({texture_list_[2 * i], texture_list_[2 * i + 1]});
@@ -250,12 +254,17 @@ class ElementReader {
 
 /// Drops what only some elements of a damaged or odd file have, and gives vertices' texture
 /// coordinates to their corners where faces have none of their own.
-void complete_attributes(PolyMesh& mesh, const std::vector<TexturePoint>& vertex_texture) {
+void complete_attributes(PolyMesh& mesh, const std::vector<TexturePoint>& vertex_texture,
+                         ReadReport& report) {
   Attributes& attributes = mesh.attributes;
   const auto faces = static_cast<std::size_t>(mesh.face_count());
   std::erase_if(attributes.labels, [&](const FaceLabels& l) { return l.of_face.size() != faces; });
   if (attributes.colour.size() != mesh.positions.size()) attributes.colour.clear();
-  if (attributes.texture.size() != mesh.corners.size()) attributes.texture.clear();
+  const auto untextured = static_cast<std::size_t>(report.untextured_corners);
+  if (attributes.texture.size() != mesh.corners.size() || untextured == mesh.corners.size()) {
+    attributes.texture.clear();
+    report.untextured_corners = 0;
+  }
   if (!attributes.texture.empty() || vertex_texture.empty()) return;
   attributes.texture.reserve(mesh.corners.size());
   for (const Index v : mesh.corners) {
@@ -284,7 +293,7 @@ PolyMesh read_elements(Source source, const PlyHeader& header, ReadReport& repor
       complete = ElementReader<Source>(source, element, mesh, vertex_texture, report).read();
     }
   }
-  complete_attributes(mesh, vertex_texture);
+  complete_attributes(mesh, vertex_texture, report);
   return mesh;
 }
 

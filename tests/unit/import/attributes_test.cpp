@@ -148,6 +148,35 @@ TEST(Attributes, CornersWithoutTextureAreTold) {
   EXPECT_TRUE(report.warnings().empty());
 }
 
+/// An ascii PLY file of two triangles, the texture coordinates of each in a list.
+std::string square_ply(const std::string& first, const std::string& second) {
+  return "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+         "property float z\nproperty float s\nproperty float t\nelement face 2\n"
+         "property list uchar int vertex_indices\nproperty list uchar float texcoord\nend_header\n"
+         "0 0 0 0.5 1\n1 0 0 0.5 1\n1 1 0 0.5 1\n0 1 0 0.5 1\n3 0 1 2 " +
+         first + "\n3 0 2 3 " + second + "\n";
+}
+
+TEST(Attributes, CornersWithoutTextureInAPlyFileAreTold) {
+  ReadReport report;
+  const auto texture = [&](const std::string& first, const std::string& second) {
+    return parse_mesh(square_ply(first, second), ".ply", report).attributes.texture;
+  };
+  using Texture = std::vector<TexturePoint>;
+  const std::string whole = "6 0.1 0.2 0.3 0.4 0.5 0.6";
+  EXPECT_EQ(texture(whole, "0"),
+            (Texture{{0.1, 0.2}, {0.3, 0.4}, {0.5, 0.6}, {0, 0}, {0, 0}, {0, 0}}));
+  EXPECT_EQ(report.untextured_corners, 3);
+  EXPECT_EQ(report.warnings().size(), 1U);
+  EXPECT_EQ(texture("3 0.1 0.2 0.3", whole)[1], (TexturePoint{0, 0}));
+  EXPECT_EQ(report.untextured_corners, 2);
+  EXPECT_EQ(texture(whole, whole)[3], (TexturePoint{0.1, 0.2}));
+  EXPECT_EQ(report.untextured_corners, 0);
+  // Where no face has any, those of the vertices.
+  EXPECT_EQ(texture("0", "0"), Texture(6, TexturePoint{0.5, 1}));
+  EXPECT_TRUE(report.warnings().empty());
+}
+
 /// Hashes, as segmentations have, of which those from 2^31 on were all the same.
 TEST(Attributes, LabelsWithoutASignStayApart) {
   const auto label = [](const std::string& type, const std::string& value) {
