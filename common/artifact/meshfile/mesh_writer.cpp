@@ -97,6 +97,13 @@ class TextureNumbers {
 struct Part {
   std::string_view statement;
   const FaceLabels* labels;
+
+  /// Whether the label of a face is the empty name: the face came before the first statement.
+  [[nodiscard]] bool is_nameless(Index face) const {
+    const Index number = labels->of_face[face];
+    return number >= 0 && static_cast<std::size_t>(number) < labels->names.size() &&
+           labels->names[number].empty();
+  }
 };
 
 /// What OBJ has for each kind of labels, objects first and materials last: its own statement, or
@@ -121,7 +128,9 @@ std::vector<Part> parts_of(const std::vector<FaceLabels>& kinds) {
 
 void print_part(const Part& part, Index face, OutputFile& out) {
   const Index number = part.labels->of_face[face];
-  if (number >= 0 && static_cast<std::size_t>(number) < part.labels->names.size()) {
+  if (part.is_nameless(face)) {
+    out.print("{} default\n", part.statement);  // a statement must have a name
+  } else if (number >= 0 && static_cast<std::size_t>(number) < part.labels->names.size()) {
     out.print("{} {}\n", part.statement, part.labels->names[number]);
   } else {
     out.print("{} {}_{}\n", part.statement, part.labels->name, number);
@@ -129,7 +138,8 @@ void print_part(const Part& part, Index face, OutputFile& out) {
 }
 
 /// The faces of an object together, in it those of a group, and in that those of a material, in
-/// order of appearance: programs begin another part at every statement.
+/// order of appearance: programs begin another part at every statement. What has no name comes
+/// first, as no statement can follow another to say so, and the parts that hold such come next.
 std::vector<Index> faces_by_part(Index face_count, const std::vector<Part>& parts) {
   std::vector<Index> faces(static_cast<std::size_t>(face_count));
   std::iota(faces.begin(), faces.end(), 0);
@@ -137,7 +147,16 @@ std::vector<Index> faces_by_part(Index face_count, const std::vector<Part>& part
   for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
     const std::vector<Index>& label = part->labels->of_face;
     std::map<Index, std::size_t> appearance;
-    for (const Index own : label) appearance.try_emplace(own, appearance.size());
+    const auto add_where = [&](const auto& is_next) {
+      for (Index f = 0; f < face_count; ++f) {
+        if (is_next(f)) appearance.try_emplace(label[f], appearance.size());
+      }
+    };
+    add_where([&](Index f) { return part->is_nameless(f); });
+    add_where([&](Index f) {
+      return std::ranges::any_of(parts, [&](const Part& any) { return any.is_nameless(f); });
+    });
+    add_where([](Index) { return true; });
     std::ranges::stable_sort(faces, {}, [&](Index f) { return appearance.at(label[f]); });
   }
   return faces;
@@ -158,11 +177,15 @@ void write_obj(const PolyMesh& mesh, OutputFile& out) {
   const TextureNumbers texture(attributes.texture);
   for (const auto& [s, t] : texture.points()) out.print("vt {} {}\n", s, t);
   const std::vector<Part> parts = parts_of(attributes.labels);
+  std::vector<std::uint8_t> has_begun(parts.size(), 0);
   Index last = kNone;
   for (const Index f : faces_by_part(mesh.face_count(), parts)) {
-    for (const Part& part : parts) {
-      const std::vector<Index>& label = part.labels->of_face;
-      if (last == kNone || label[f] != label[last]) print_part(part, f, out);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const std::vector<Index>& label = parts[i].labels->of_face;
+      if (last != kNone && label[f] == label[last]) continue;
+      if (has_begun[i] == 0 && parts[i].is_nameless(f)) continue;
+      print_part(parts[i], f, out);
+      has_begun[i] = 1;
     }
     last = f;
     out.print("f");

@@ -278,6 +278,39 @@ TEST(Attributes, ObjHasEveryPartOnce) {
   EXPECT_EQ(read.labels[1].of_face, (std::vector<Index>{0, 0, 1, 0, 0, 1}));
 }
 
+/// What is written of parts, and what is read back.
+std::pair<std::vector<std::string>, PolyMesh> parts_written(const PolyMesh& mesh) {
+  const fs::path path = fs::path(testing::TempDir()) / "strake-parts.obj";
+  write_mesh(path, mesh);
+  std::pair<std::vector<std::string>, PolyMesh> result;
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("o") || line.starts_with("usemtl")) result.first.push_back(line);
+  }
+  ReadReport report;
+  result.second = read_mesh(path, report);
+  fs::remove(path);
+  return result;
+}
+
+/// A statement must have a name; faces before the first one have none.
+TEST(Attributes, FacesOfNoPartComeBeforeTheFirstStatement) {
+  PolyMesh cube = shapes::cube();
+  const std::vector<std::string> materials = {"", "red"};
+  cube.attributes.labels = {{"usemtl", {1, 1, 0, 0, 1, 0}, materials}};
+  const auto [lines, read] = parts_written(cube);
+  EXPECT_EQ(lines, (std::vector<std::string>{"usemtl red"}));
+  EXPECT_EQ(read.attributes.labels,
+            (std::vector<FaceLabels>{{"usemtl", {0, 0, 0, 1, 1, 1}, materials}}));
+  // The object that has them comes first.
+  cube.attributes.labels.push_back({"o", {1, 1, 0, 0, 1, 0}, {"seat", "leg"}});
+  EXPECT_EQ(parts_written(cube).first, (std::vector<std::string>{"o seat", "o leg", "usemtl red"}));
+  // Only one can.
+  cube.attributes.labels[0].of_face = {0, 1, 0, 1, 0, 0};
+  EXPECT_EQ(parts_written(cube).first, (std::vector<std::string>{"o leg", "usemtl red", "o seat",
+                                                                 "usemtl default", "usemtl red"}));
+}
+
 TEST(Attributes, EveryKindOfLabelsIsAStatementOfItsOwn) {
   PolyMesh mesh = shapes::cube();
   const std::vector<std::string> kinds = {"label", "usemtl", "region", "part"};
