@@ -66,11 +66,16 @@ class EarCutter {
   [[nodiscard]] Index after(std::size_t i) const { return ring_[(i + 1) % ring_.size()]; }
 
   /// A corner that is none of an ear when it is upright lies in the one across, and the other way
-  /// round: so ties end the other way here.
+  /// round: so ties end the other way here. Corners of the ear are told by their places, as the
+  /// bridge to a hole may be written with vertices of its own for either side.
   [[nodiscard]] bool is_empty(Index a, Index b, Index c) const {
+    const auto is_at = [&](Index q, Index corner) {
+      return q == corner || positions_[q] == positions_[corner];
+    };
     return std::none_of(ring_.begin(), ring_.end(), [&](Index q) {
-      return q != a && q != b && q != c && area_along_normal(a, b, q) >= -no_area_ &&
-             area_along_normal(b, c, q) >= -no_area_ && area_along_normal(c, a, q) >= -no_area_;
+      return !is_at(q, a) && !is_at(q, b) && !is_at(q, c) &&
+             area_along_normal(a, b, q) >= -no_area_ && area_along_normal(b, c, q) >= -no_area_ &&
+             area_along_normal(c, a, q) >= -no_area_;
     });
   }
 

@@ -57,9 +57,13 @@ TEST(FaceShape, NewellNormalIsTwiceTheArea) {
   }
 }
 
+// A square hole, with the two corners of the bridge to it written twice.
+const std::vector<Vec2> kKeyhole = {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0},
+                                    {1, 1}, {1, 3}, {3, 3}, {3, 1}, {1, 1}};
+
 // Triangles that all face along the normal and whose areas add up to the polygon's cover it once.
 TEST(FaceShape, TrianglesCoverPolygonsOnce) {
-  for (const auto& outline : {kDart, kL, kKite, star(5), star(200)}) {
+  for (const auto& outline : {kDart, kL, kKite, kKeyhole, star(5), star(200)}) {
     const PolyMesh mesh = polygon(outline);
     const Vec3 normal = newell_normal(mesh.positions, mesh.face(0)).normalized();
     std::vector<std::array<Index, 3>> triangles;
