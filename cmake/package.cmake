@@ -3,7 +3,7 @@
 
 # The libraries that the chain in memory consists of; each is exported as strake::NAME.
 set(STRAKE_EXPORTED
-    core topology poly_topology face_crossings surface_distance geometry patch_fill plane cell_error samples
+    core topology poly_topology box_tree face_crossings surface_distance geometry patch_fill plane cell_error samples
     atomic_file meshfile stage_values count_search chain)
 foreach(stage import tensor smooth coarsen prolong trace mesh lift decimate fit size refine evaluate)
   list(APPEND STRAKE_EXPORTED ${stage} ${stage}_stage)

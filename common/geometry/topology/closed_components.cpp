@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "common/geometry/face_crossings/box_tree.h"
 #include "common/geometry/topology/topology.h"
 
 namespace strake {
@@ -84,8 +85,11 @@ class Judge {
   std::vector<std::uint8_t> those_inside(const Asked& is_asked, const Around& may_be_around,
                                          const IsWound& is_wound) {
     place_points(is_asked);
+    std::vector<BoxTree::Box> places;
+    for (const Point& point : points_) places.emplace_back(point.at);
+    const BoxTree tree(places);
     for (std::size_t f = 0; f < faces_.size(); ++f) {
-      if (!points_.empty() && may_be_around(component_[f])) cross(f);
+      if (!points_.empty() && may_be_around(component_[f])) cross(f, tree);
     }
     std::vector<std::uint8_t> result(solids_.size(), 0);
     for (const Point& point : points_) result[point.component] = 1;
@@ -109,9 +113,6 @@ class Judge {
                            static_cast<Index>(c)});
       }
     }
-    std::sort(points_.begin(), points_.end(), [](const Point& a, const Point& b) {
-      return a.at.x() != b.at.x() ? a.at.x() < b.at.x() : a.component < b.component;
-    });
   }
 
   /// Whether a point is left of the edge from a to b, seen from above, alike for both its faces.
@@ -121,24 +122,22 @@ class Judge {
     return (along.x() * to.y() - along.y() * to.x() > 0) == (a < b);
   }
 
-  /// Counts a face for the points below it.
-  void cross(std::size_t f) {
+  /// Counts a face for the points below it. Those below all of its component are left out: its
+  /// other faces would undo what this one counts.
+  void cross(std::size_t f, const BoxTree& tree) {
     const auto& [a, b, c] = faces_[f];
-    Eigen::AlignedBox3d box;
+    BoxTree::Box box;
     for (const Index v : faces_[f]) box.extend(positions_[v]);
-    const auto before = [](const Point& point, double x) { return point.at.x() < x; };
-    for (auto point = std::lower_bound(points_.begin(), points_.end(), box.min().x(), before);
-         point != points_.end() && point->at.x() <= box.max().x(); ++point) {
-      const Vec3& p = point->at;
-      if (point->component == component_[f] || p.y() < box.min().y() || p.y() > box.max().y()) {
-        continue;
-      }
-      const bool left = is_left(a, b, p);
-      if (is_left(b, c, p) != left || is_left(c, a, p) != left) continue;
-      const Vec3 normal = (positions_[b] - positions_[a]).cross(positions_[c] - positions_[a]);
-      const bool is_above = (normal.dot(positions_[a] - p) > 0) == (normal.z() > 0);
-      if (is_above) point->winding += left ? 1 : -1;
-    }
+    box.min().z() = solids_[component_[f]].box.min().z();
+    const Vec3 normal = (positions_[b] - positions_[a]).cross(positions_[c] - positions_[a]);
+    tree.visit_touching(box, [&, a = a, b = b, c = c](Index i) {
+      Point& point = points_[i];
+      if (point.component == component_[f]) return;
+      const bool left = is_left(a, b, point.at);
+      if (is_left(b, c, point.at) != left || is_left(c, a, point.at) != left) return;
+      const bool is_above = (normal.dot(positions_[a] - point.at) > 0) == (normal.z() > 0);
+      if (is_above) point.winding += left ? 1 : -1;
+    });
   }
 
   std::span<const Vec3> positions_;
@@ -146,7 +145,7 @@ class Judge {
   std::span<const Index> component_;
   std::span<const std::uint8_t> is_closed_;
   std::vector<Solid> solids_;  ///< [components]
-  std::vector<Point> points_;  ///< by x
+  std::vector<Point> points_;
 };
 
 }  // namespace
