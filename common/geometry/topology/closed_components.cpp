@@ -106,19 +106,31 @@ class Judge {
     for (std::size_t c = 0; c < solids_.size(); ++c) {
       const Solid& solid = solids_[c];
       if (!is_asked(c)) continue;
+      if (slanted_.empty()) slant();
       const std::size_t count = std::min(kPoints, solid.faces.size());
       for (std::size_t i = 0; i < count; ++i) {
         const auto& [p, q, r] = faces_[solid.faces[i * solid.faces.size() / count]];
-        points_.push_back({0.4142 * positions_[p] + 0.3141 * positions_[q] + 0.2717 * positions_[r],
+        points_.push_back({0.4142 * slanted_[p] + 0.3141 * slanted_[q] + 0.2717 * slanted_[r],
                            static_cast<Index>(c)});
       }
     }
   }
 
+  /// Shears all along the horizontal. What counts is what lies above what, and that without doubt:
+  /// upright faces, of which models have many, would lie above each other's points.
+  void slant() {
+    constexpr double kX = 0.1376;
+    constexpr double kY = 0.0719;
+    slanted_.reserve(positions_.size());
+    for (const Vec3& p : positions_) {
+      slanted_.emplace_back(p.x() + kX * p.z(), p.y() + kY * p.z(), p.z());
+    }
+  }
+
   /// Whether a point is left of the edge from a to b, seen from above, alike for both its faces.
   [[nodiscard]] bool is_left(Index a, Index b, const Vec3& p) const {
-    const Vec3 along = positions_[std::max(a, b)] - positions_[std::min(a, b)];
-    const Vec3 to = p - positions_[std::min(a, b)];
+    const Vec3 along = slanted_[std::max(a, b)] - slanted_[std::min(a, b)];
+    const Vec3 to = p - slanted_[std::min(a, b)];
     return (along.x() * to.y() - along.y() * to.x() > 0) == (a < b);
   }
 
@@ -127,15 +139,15 @@ class Judge {
   void cross(std::size_t f, const BoxTree& tree) {
     const auto& [a, b, c] = faces_[f];
     BoxTree::Box box;
-    for (const Index v : faces_[f]) box.extend(positions_[v]);
+    for (const Index v : faces_[f]) box.extend(slanted_[v]);
     box.min().z() = solids_[component_[f]].box.min().z();
-    const Vec3 normal = (positions_[b] - positions_[a]).cross(positions_[c] - positions_[a]);
+    const Vec3 normal = (slanted_[b] - slanted_[a]).cross(slanted_[c] - slanted_[a]);
     tree.visit_touching(box, [&, a = a, b = b, c = c](Index i) {
       Point& point = points_[i];
       if (point.component == component_[f]) return;
       const bool left = is_left(a, b, point.at);
       if (is_left(b, c, point.at) != left || is_left(c, a, point.at) != left) return;
-      const bool is_above = (normal.dot(positions_[a] - point.at) > 0) == (normal.z() > 0);
+      const bool is_above = (normal.dot(slanted_[a] - point.at) > 0) == (normal.z() > 0);
       if (is_above) point.winding += left ? 1 : -1;
     });
   }
@@ -144,6 +156,7 @@ class Judge {
   std::span<const std::array<Index, 3>> faces_;
   std::span<const Index> component_;
   std::span<const std::uint8_t> is_closed_;
+  std::vector<Vec3> slanted_;  ///< [V] once there are points; the same heights
   std::vector<Solid> solids_;  ///< [components]
   std::vector<Point> points_;
 };

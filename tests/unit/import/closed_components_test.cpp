@@ -67,7 +67,33 @@ TEST(ClosedComponents, CavitiesLieInsideWhatLooksOutwards) {
   expect_judged(all_of({box(kOrigin, 1), box(Vec3(0.1, 0.2, -5), -3)}), 1, 0);
 }
 
-/// Processor time that it takes to judge rows of cubes that look inwards, in a plane across an axis.
+// Points on upright faces lie in the planes of others above and below.
+TEST(ClosedComponents, CavitiesMayBeInLine) {
+  const PolyMesh row = all_of(
+      {box(kOrigin, 8), box(Vec3(0, 0, -4), -1), box(Vec3(0, 0, 0), -1), box(Vec3(0, 0, 4), -1)});
+  // A step, 1 wide and high and 4 deep, and a cavity whose side is below its upright.
+  const PolyMesh step = shapes::polygons(
+      {Vec3(0, 0, 0), Vec3(2, 0, 0), Vec3(2, 0, 2), Vec3(1, 0, 2), Vec3(1, 0, 1), Vec3(0, 0, 1),
+       Vec3(0, 4, 0), Vec3(2, 4, 0), Vec3(2, 4, 2), Vec3(1, 4, 2), Vec3(1, 4, 1), Vec3(0, 4, 1)},
+      {{0, 1, 2, 3, 4, 5},
+       {11, 10, 9, 8, 7, 6},
+       {1, 0, 6, 7},
+       {2, 1, 7, 8},
+       {3, 2, 8, 9},
+       {4, 3, 9, 10},
+       {5, 4, 10, 11},
+       {0, 5, 11, 6}});
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    EXPECT_EQ(judge_closed_components(support::permuted(row, seed).mesh).cavities, 3) << seed;
+    for (const double x : {0.875, 1.125}) {
+      const PolyMesh hollow = all_of({step, box(Vec3(x, 1.7, 0.5), -0.125)});
+      EXPECT_EQ(judge_closed_components(support::permuted(hollow, seed).mesh).cavities, 1) << seed;
+    }
+  }
+}
+
+/// Processor time that it takes to judge rows of cubes that look inwards, in a plane across an
+/// axis.
 double time_to_judge(int rows, int axis) {
   const PolyMesh cube = box(kOrigin, -1);
   PolyMesh mesh;
