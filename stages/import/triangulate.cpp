@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <queue>
@@ -18,6 +19,7 @@
 #include "common/core/error.h"
 #include "common/core/mix_bits.h"
 #include "common/geometry/angles.h"
+#include "common/geometry/face_crossings/box_tree.h"
 #include "common/geometry/poly_topology/face_shape.h"
 
 namespace strake::import {
@@ -42,17 +44,14 @@ class TakenEdges {
     slots_.resize(std::bit_ceil(2 * mesh.corners.size() + 16));
     for (Index f = 0; f < mesh.face_count(); ++f) {
       const auto face = mesh.face(f);
+      const std::uint64_t owner = key(face);
       for (std::size_t i = 0; i < face.size(); ++i) {
-        take(face[i], face[(i + 1) % face.size()], face);
+        take(face[i], face[(i + 1) % face.size()], owner);
       }
     }
   }
 
-  void take(Index a, Index b, std::span<const Index> face) {
-    const std::uint64_t edge = key(a, b);
-    Slot& slot = slots_[find(edge)];
-    if (slot.edge == 0) slot = {edge, key(face)};
-  }
+  void take(Index a, Index b, std::span<const Index> face) { take(a, b, key(face)); }
 
   [[nodiscard]] bool is_free(Index a, Index b, std::span<const Index> face) const {
     const Slot& slot = slots_[find(key(a, b))];
@@ -65,6 +64,11 @@ class TakenEdges {
     std::uint64_t owner = 0;
   };
 
+  void take(Index a, Index b, std::uint64_t owner) {
+    const std::uint64_t edge = key(a, b);
+    Slot& slot = slots_[find(edge)];
+    if (slot.edge == 0) slot = {edge, owner};
+  }
   static std::uint64_t key(Index a, Index b) {
     const auto [low, high] = std::minmax({a, b});
     return (static_cast<std::uint64_t>(low + 1) << 32) | static_cast<std::uint32_t>(high);
@@ -113,12 +117,80 @@ bool cut_from_first_corner(const std::vector<Vec3>& positions, std::span<const I
   return std::min(quad[0], quad[2]) < std::min(quad[1], quad[3]);
 }
 
+/// Twice the area of a triangle; negative where it is clockwise.
+double cross(const Vec2& a, const Vec2& b, const Vec2& c) {
+  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+}
+
+/// The reflex corners of a polygon, from which some are taken; where they are many, in a tree.
+class ReflexCorners {
+ public:
+  /// \param points  [n] of all corners of the polygon
+  explicit ReflexCorners(const std::vector<Vec2>& points) : points_(points) {}
+
+  void assign(std::vector<int> corners) {
+    corners_ = std::move(corners);
+    is_there_.assign(points_.size(), 0);
+    for (const int corner : corners_) is_there_[corner] = 1;
+    rebuild();
+  }
+
+  [[nodiscard]] bool contains(int corner) const { return is_there_[corner] != 0; }
+
+  /// \pre contains(corner)
+  void remove(int corner) {
+    is_there_[corner] = 0;
+    if (2 * ++removed_ > corners_.size()) rebuild();
+  }
+
+  /// Whether one in or on a triangle is as asked. \pre the triangle is counter-clockwise
+  template <typename IsAsked>
+  [[nodiscard]] bool any_in(const Vec2& a, const Vec2& b, const Vec2& c,
+                            const IsAsked& is_asked) const {
+    const auto is_hit = [&](int corner) {
+      const Vec2& p = points_[corner];
+      return contains(corner) && cross(a, b, p) >= 0 && cross(b, c, p) >= 0 &&
+             cross(c, a, p) >= 0 && is_asked(corner);
+    };
+    if (!tree_) return std::any_of(corners_.begin(), corners_.end(), is_hit);
+    BoxTree::Box around;
+    for (const Vec2* p : {&a, &b, &c}) around.extend(Vec3(p->x(), p->y(), 0));
+    bool found = false;
+    tree_->visit_touching_while(around, [&](Index k) {
+      found = is_hit(corners_[k]);
+      return !found;
+    });
+    return found;
+  }
+
+ private:
+  static constexpr std::size_t kLeastForTree = 64;
+
+  void rebuild() {
+    std::erase_if(corners_, [&](int corner) { return !contains(corner); });
+    removed_ = 0;
+    tree_.reset();
+    if (corners_.size() < kLeastForTree) return;
+    std::vector<BoxTree::Box> places;
+    for (const int corner : corners_) {
+      places.emplace_back(Vec3(points_[corner].x(), points_[corner].y(), 0));
+    }
+    tree_.emplace(places);
+  }
+
+  const std::vector<Vec2>& points_;
+  std::vector<int> corners_;  ///< also some that were removed
+  std::vector<std::uint8_t> is_there_;
+  std::size_t removed_ = 0;
+  std::optional<BoxTree> tree_;  ///< of corners_
+};
+
 /// Cuts ears off one polygon, in two dimensions, the one with the largest least angle in space
 /// first.
 class EarClipper {
  public:
   EarClipper(const std::vector<Vec3>& positions, std::span<const Index> polygon)
-      : count_(static_cast<int>(polygon.size())) {
+      : count_(static_cast<int>(polygon.size())), reflex_(points_) {
     const Vec3 normal = newell_normal(positions, polygon).normalized();
     const Vec3 x = normal.unitOrthogonal();
     const Vec3 y = normal.cross(x);
@@ -132,9 +204,11 @@ class EarClipper {
     }
     version_.assign(count_, 0);
     for (int i = 0; i < count_; ++i) push(i);
+    std::vector<int> reflex;
     for (int i = 0; i < count_; ++i) {
-      if (ear_shape(i) <= 0) reflex_.push_back(i);
+      if (ear_shape(i) <= 0) reflex.push_back(i);
     }
+    reflex_.assign(std::move(reflex));
   }
 
   /// Calls `emit(a, b, c)` with corner numbers for each triangle.
@@ -161,10 +235,6 @@ class EarClipper {
     }
   };
 
-  static double cross(const Vec2& a, const Vec2& b, const Vec2& c) {
-    return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-  }
-
   [[nodiscard]] double ear_shape(int i) const {
     const Vec2& a = points_[previous_[i]];
     const Vec2& b = points_[i];
@@ -178,10 +248,9 @@ class EarClipper {
     const Vec2& a = points_[previous_[i]];
     const Vec2& b = points_[i];
     const Vec2& c = points_[next_[i]];
-    return std::none_of(reflex_.begin(), reflex_.end(), [&](int r) {
+    return !reflex_.any_in(a, b, c, [&](int r) {
       const Vec2& p = points_[r];
-      if (next_[r] < 0 || p == a || p == b || p == c) return false;
-      return cross(a, b, p) >= 0 && cross(b, c, p) >= 0 && cross(c, a, p) >= 0;
+      return p != a && p != b && p != c;
     });
   }
 
@@ -235,9 +304,9 @@ class EarClipper {
     clipped_since_retry_ = true;
     push(before);
     push(after);
-    std::erase_if(reflex_, [&](int r) {  // of no other corner anything has changed
-      return r == ear || ((r == before || r == after) && ear_shape(r) > 0);
-    });
+    for (const int i : {ear, before, after}) {  // of no other corner anything has changed
+      if (reflex_.contains(i) && (i == ear || ear_shape(i) > 0)) reflex_.remove(i);
+    }
   }
 
   int count_;
@@ -246,7 +315,7 @@ class EarClipper {
   std::vector<int> next_;  ///< -1 once cut off
   std::vector<int> previous_;
   std::vector<int> version_;
-  std::vector<int> reflex_;
+  ReflexCorners reflex_;
   std::priority_queue<Candidate> candidates_;
   std::vector<Candidate> blocked_;
   bool clipped_since_retry_ = false;

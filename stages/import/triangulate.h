@@ -12,7 +12,7 @@ namespace strake::import {
 /// their Newell normal; polygons that cross themselves there are still cut into triangles with the
 /// given border. Faces that cannot be used (indices out of range, non-finite corners, fewer than
 /// three corners apart from repetitions) are counted and left out. Cost O(n) for triangles and
-/// quads, O(n (log n + r)) for n corners of which r are reflex.
+/// quads, O(n log n) as a rule for n corners.
 /// \throw InputError where there are more triangles than half-edges can be numbered of
 Soup triangulate(const PolyMesh& mesh, Repairs& repairs);
 

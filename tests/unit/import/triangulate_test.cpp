@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
+#include <ctime>
 #include <map>
 #include <random>
 #include <set>
@@ -91,6 +93,29 @@ TEST(Triangulate, StarKeepsItsAreaWithoutFoldedTriangles) {
     // n sums of numbers below 1, each rounded to 1e-16.
     EXPECT_NEAR(sum, 0.5 * twice_area, 1e-15 * n);
   }
+}
+
+/// Processor time of cutting a star of so many low points, and a quad.
+double time_to_cut(int points) {
+  PolyMesh mesh = shapes::polygons({Vec3(2, 0, 0), Vec3(3, 0, 0), Vec3(3, 1, 0), Vec3(2, 1, 0)},
+                                   {{0, 1, 2, 3}});
+  std::vector<Index> star;
+  for (int i = 0; i < 2 * points; ++i) {
+    const double angle = std::numbers::pi * i / points;
+    star.push_back(mesh.vertex_count());
+    mesh.positions.push_back((i % 2 == 0 ? 1.02 : 1.0) * Vec3(std::cos(angle), std::sin(angle), 0));
+  }
+  mesh.add_face(star);
+  Repairs repairs;
+  const std::clock_t start = std::clock();
+  EXPECT_EQ(triangulate(mesh, repairs).face_count(), 2 * points);
+  return static_cast<double>(std::clock() - start);
+}
+
+// Eight times the corners took 60 times as long.
+TEST(Triangulate, LargePolygonsTakeLittleMoreForEachCorner) {
+  const double few = std::min({time_to_cut(4000), time_to_cut(4000), time_to_cut(4000)});
+  EXPECT_LT(time_to_cut(32000), 30 * few);
 }
 
 TEST(Triangulate, AnyOutlineGivesADisk) {
