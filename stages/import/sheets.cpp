@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "common/core/tri_mesh.h"
+#include "stages/import/one_sided.h"
 
 namespace strake::import {
 namespace {
@@ -31,9 +32,7 @@ struct Sheet {
   std::int64_t flipped = 0;
   double volume = 0;  ///< signed, with the orientation of the first face throughout
   bool is_closed = true;
-  std::vector<Index>
-      contradictions;         ///< half-edges that join faces of different sides, one an edge
-  std::vector<Index> turned;  ///< likewise, whose faces run the same way in the input
+  bool is_one_sided = false;  ///< so that no way to turn its faces makes all look alike
 };
 
 /// Orients the pieces that the twins join.
@@ -54,9 +53,11 @@ class Orienter {
     for (Index seed = 0; seed < soup_.face_count(); ++seed) {
       if (side_[seed] != kUnseen) continue;
       const Sheet sheet = collect(seed);
-      if (cut_as_it_is(sheet)) continue;
-      const bool flip_others = should_flip_others(sheet);
-      for (const Index f : sheet.faces) flip[f] = (side_[f] == 1) == flip_others ? 1 : 0;
+      if (sheet.is_one_sided) {
+        cut(sheet, flip);
+      } else {
+        mark(sheet, flip);
+      }
     }
     apply(flip);
   }
@@ -64,20 +65,25 @@ class Orienter {
  private:
   static constexpr std::uint8_t kUnseen = 2;
 
-  /// Cuts the edges across which the sides of a piece contradict each other, as it has only one;
-  /// or, where these are no fewer, those along which its faces run the same way already.
-  /// \return whether it was the latter, and no face is to be turned over
-  bool cut_as_it_is(const Sheet& sheet) {
-    if (sheet.contradictions.empty()) return false;
-    const bool as_it_is = sheet.turned.size() <= sheet.contradictions.size();
-    for (const Index h : as_it_is ? sheet.turned : sheet.contradictions) {
+  /// Cuts a piece that has only one side, and orients what is left of it.
+  void cut(const Sheet& sheet, std::vector<std::uint8_t>& flip) {
+    for (const Index h : cuts_of_one_sided(soup_, twin_, sheet.faces)) {
       unpair(twin_, h);
       ++repairs_.non_orientable_cuts;
     }
-    return as_it_is;
+    for (const Index f : sheet.faces) side_[f] = kUnseen;
+    for (const Index f : sheet.faces) {
+      if (side_[f] == kUnseen) mark(collect(f), flip);
+    }
   }
 
-  /// Walks over a piece, and notes which faces are turned against the first, and where that
+  /// Marks the faces of a piece that are to be turned over.
+  void mark(const Sheet& sheet, std::vector<std::uint8_t>& flip) const {
+    const bool flip_others = should_flip_others(sheet);
+    for (const Index f : sheet.faces) flip[f] = (side_[f] == 1) == flip_others ? 1 : 0;
+  }
+
+  /// Walks over a piece, and notes which faces are turned against the first, and whether that
   /// contradicts itself.
   Sheet collect(Index seed) {
     Sheet sheet;
@@ -94,13 +100,11 @@ class Orienter {
         const Index g = twin_[h] / 3;
         const bool turned = soup_.from(h) == soup_.from(twin_[h]);
         const auto side = static_cast<std::uint8_t>(side_[f] ^ (turned ? 1 : 0));
-        if (turned && h < twin_[h]) sheet.turned.push_back(h);
         if (side_[g] == kUnseen) {
           side_[g] = side;
           sheet.faces.push_back(g);
         } else if (side_[g] != side) {
-          if (h < twin_[h]) sheet.contradictions.push_back(h);
-          sheet.is_closed = false;
+          sheet.is_one_sided = true;
         }
       }
     }
