@@ -16,7 +16,8 @@ class NoLocks : public PipelineTest {
 
   /// A run that is cut off where it waits for what never comes.
   Outcome run_without_locks(const std::string& arguments) {
-    return shell("LD_PRELOAD=" STRAKE_NO_LOCKS " timeout 60 " STRAKE_BIN "/strake run " + arguments);
+    return shell("LD_PRELOAD=" STRAKE_NO_LOCKS " timeout 60 " STRAKE_BIN "/strake run " +
+                 arguments);
   }
 };
 
@@ -30,8 +31,7 @@ TEST_F(NoLocks, NobodyWaitsForThem) {
 TEST_F(NoLocks, WhatOthersAreWritingStays) {
   must("strake run -q --until tensor");
   const fs::path entry = artifact("torus/tensor-", "tensor.hdf").parent_path();
-  const std::string half =
-      (entry / ".tensor.hdf.1-0.tmp").lexically_relative(folder_).string();
+  const std::string half = (entry / ".tensor.hdf.1-0.tmp").lexically_relative(folder_).string();
   const auto begin_again = [&] {
     fs::remove(entry / "manifest.json");
     put(half, "half written");

@@ -48,8 +48,7 @@ TEST_F(Unwritable, LinksToWhatIsNotThereAreFollowed) {
 /// On a disk with room for the output alone.
 TEST_F(Unwritable, AReportTakesTheOutputWithIt) {
   put("square.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
-  const std::string command =
-      " remesh square.obj -q -o out.obj --vertices 9 --report report.json";
+  const std::string command = " remesh square.obj -q -o out.obj --vertices 9 --report report.json";
   const Outcome full =
       shell("sh -c 'trap \"\" XFSZ; ulimit -f 4; exec \"$@\"' - " STRAKE_BIN "/strake" + command);
   EXPECT_EQ(full.exit_code, kBadInput) << full.err;
