@@ -60,6 +60,14 @@ std::vector<std::string> matching_files(const std::string& pattern) {
   return files;
 }
 
+/// \param what  it is the path of: "a model"
+void check_path(const fs::path& path, const char* what, const Place& place) {
+  const std::string unfit = unfit_for_runs(path);
+  if (unfit.empty()) return;
+  place.fail(fmt::format("'{}': the path of {} cannot have {} in it; rename it",
+                         on_one_line(path.string()), what, unfit));
+}
+
 /// The options of a stage. In the spelling of --set, "trace.seed: 7", they are refused with the one
 /// that files have.
 std::vector<YamlView::Entry> options_of(const YamlView::Entry& rule) {
@@ -115,9 +123,7 @@ class Reader {
     if (!top_.count("store")) return;
     const YamlView& view = top_.at("store");
     description_.store = without_dots(folder_ / view.text("a folder") / "").parent_path();
-    if (const std::string unfit = unfit_for_runs(description_.store); !unfit.empty()) {
-      view.fail(fmt::format("the path of a store cannot have {} in it", unfit));
-    }
+    check_path(description_.store, "a store", view.place());
     if (description_.store != folder_) return;
     view.fail("the folder of the pipeline file cannot be the store; name one for results alone");
   }
@@ -229,6 +235,7 @@ class Reader {
     names.erase(std::unique(names.begin(), names.end()), names.end());
     for (const auto& [name, value] : view.fields("inputs of a model", names)) {
       const fs::path file = without_dots(folder_ / value.text("a file"));
+      check_path(file, "an input", value.place());
       if (!is_file(file)) note_missing(model, file, value.place());
       model.inputs[name] = file;
     }
@@ -314,6 +321,7 @@ class Reader {
                                    : fmt::format("; name it yourself: 'models: {{ NAME: \"{}\" }}'",
                                                  file.lexically_proximate(folder_).string());
     check_name(name, place, remedy);
+    check_path(file, "a model", place);
     for (const ModelEntry& other : description_.models) {
       if (other.name == name) place.fail(fmt::format("there are two models '{}'{}", name, remedy));
     }
@@ -332,6 +340,7 @@ class Reader {
           entry.value.is_list() ? entry.value.items("files") : std::vector<YamlView>{entry.value};
       for (const YamlView& file : files) {
         const std::string text = file.text("a file name");
+        check_path(text, "an output", file.place());
         check_delivery(description_, entry, text, file.place());
         description_.deliveries.push_back({entry.key, text, file.place()});
       }

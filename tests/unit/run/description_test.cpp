@@ -347,6 +347,21 @@ TEST_F(GoodPipeline, FoldersWhoseNamesCannotBeWrittenAreRefused) {
   }
 }
 
+TEST_F(GoodPipeline, FilesWhoseNamesCannotBeWrittenAreRefused) {
+  const std::string name = "no \xff UTF-8";
+  fs::create_directory(folder_ / name);
+  put(name + "/m.obj", "v 0 0 0\n");
+  const std::vector<std::string> texts = {
+      "models: ['*/m.obj']\n", "models: {m: '" + name + "/m.obj'}\n",
+      "models: {a: {file: a.obj, inputs: {guides: '" + name + "/m.obj'}}}\n",
+      "models: [a.obj]\noutputs: {quads: '" + name + "/{model}.obj'}\n",
+      "models: [a.obj]\noutputs: {quads: \"two\\nlines.obj\"}\n"};
+  for (const std::string& text : texts) {
+    const std::string said = complaint("version: 1\n" + text);
+    EXPECT_NE(said.find("in it; rename it"), std::string::npos) << said;
+  }
+}
+
 TEST_F(GoodPipeline, TheSpellingOfTheCommandLineIsAnsweredByThatOfFiles) {
   for (const char* text :
        {"version: 1\nmodels: [a.obj]\nvariants: { fine: { trace.vertices: 3000 } }\n",
