@@ -9,7 +9,7 @@ namespace strake {
 Stage evaluate_stage() {
   Stage stage;
   stage.name = "evaluate";
-  stage.version = 13;
+  stage.version = 14;
   stage.summary = "Measures a polygon mesh against the surface it approximates.";
   stage.inputs = {{"mesh", PortKind::mesh, "mesh artifact"},
                   {"candidate", PortKind::polygons, "quads artifact or mesh file to judge"},

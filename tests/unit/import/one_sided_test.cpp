@@ -33,8 +33,8 @@ PolyMesh moebius_band() {
   };
   for (int i = 0; i < n; ++i) {
     for (int row = 0; row < kRows; ++row) {
-      band.add_face(std::vector<Index>{at(i, row), at(i + 1, row), at(i + 1, row + 1),
-                                       at(i, row + 1)});
+      band.add_face(
+          std::vector<Index>{at(i, row), at(i + 1, row), at(i + 1, row + 1), at(i, row + 1)});
     }
   }
   return band;
