@@ -13,14 +13,14 @@
 namespace strake::import {
 namespace {
 
-using Place = std::array<double, 3>;
-using FacePlaces = std::array<Place, 3>;  ///< ascending
-using EdgePlaces = std::pair<Place, Place>;
+using ExactPlace = std::array<double, 3>;
+using FacePlaces = std::array<ExactPlace, 3>;  ///< ascending
+using EdgePlaces = std::pair<ExactPlace, ExactPlace>;
 
 /// Faces of a piece in the mean, below which there are no sheets but single faces.
 constexpr Index kFewestFaces = 4;
 
-Place place_of(const Soup& soup, Index vertex) {
+ExactPlace place_of(const Soup& soup, Index vertex) {
   const Vec3& p = soup.positions[vertex];
   return {p.x(), p.y(), p.z()};
 }
@@ -35,8 +35,8 @@ FacePlaces places_of(const Soup& soup, Index face) {
 /// Connected faces.
 struct Piece {
   std::vector<Index> faces;
-  Place low = {};  ///< of the box around it
-  Place high = {};
+  ExactPlace low = {};  ///< of the box around it
+  ExactPlace high = {};
 
   /// Equal for pieces that may be copies.
   [[nodiscard]] auto look() const { return std::tuple(faces.size(), low, high); }
@@ -61,7 +61,7 @@ std::vector<Piece> find_pieces(const Soup& soup) {
     if (piece.faces.empty()) piece.low = piece.high = place_of(soup, soup.faces[f][0]);
     piece.faces.push_back(f);
     for (const Index v : soup.faces[f]) {
-      const Place p = place_of(soup, v);
+      const ExactPlace p = place_of(soup, v);
       for (int k = 0; k < 3; ++k) {
         piece.low[k] = std::min(piece.low[k], p[k]);
         piece.high[k] = std::max(piece.high[k], p[k]);
