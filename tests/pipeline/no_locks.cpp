@@ -32,11 +32,5 @@ int fcntl(int descriptor, int command, ...) {
 }
 
 /// The same by the name that it has where files may be large.
-int fcntl64(int descriptor, int command, ...) {
-  std::va_list rest;
-  va_start(rest, command);
-  void* argument = va_arg(rest, void*);
-  va_end(rest);
-  return control(descriptor, command, argument);
-}
+int fcntl64(int descriptor, int command, ...) __attribute__((alias("fcntl")));
 }
