@@ -30,7 +30,10 @@ struct Sheet {
   double area = 0;          ///< of all faces
   double flipped_area = 0;  ///< of those turned against the first
   std::int64_t flipped = 0;
-  double volume = 0;  ///< signed, with the orientation of the first face throughout
+  /// Signed, of the cones from the first vertex, with the orientation of the first face throughout.
+  double volume = 0;
+  Vec3 normal = Vec3::Zero();  ///< of all faces with that orientation, times their area
+  Vec3 centre = Vec3::Zero();  ///< of all faces, from the first vertex, times their area
   bool is_closed = true;
   bool is_one_sided = false;  ///< so that no way to turn its faces makes all look alike
 };
@@ -113,27 +116,45 @@ class Orienter {
 
   void add_measures(Index f, Sheet& sheet) const {
     const auto& [a, b, c] = soup_.faces[f];
-    const Vec3& p = soup_.positions[a];
-    const Vec3 normal = (soup_.positions[b] - p).cross(soup_.positions[c] - p);
+    const Vec3& first = soup_.positions[soup_.faces[sheet.faces[0]][0]];
+    const Vec3 p = soup_.positions[a] - first;
+    const Vec3 q = soup_.positions[b] - first;
+    const Vec3 r = soup_.positions[c] - first;
+    const Vec3 normal = (side_[f] == 1 ? -0.5 : 0.5) * (q - p).cross(r - p);
     const double area = normal.norm();
     sheet.area += area;
-    sheet.volume +=
-        (side_[f] == 1 ? -1 : 1) * normal.dot(p - soup_.positions[soup_.faces[sheet.faces[0]][0]]);
+    sheet.volume += normal.dot(p) / 3;
+    sheet.normal += normal;
+    sheet.centre += area / 3 * (p + q + r);
     if (side_[f] == 1) {
       sheet.flipped_area += area;
       ++sheet.flipped;
     }
   }
 
-  /// Whether the faces turned against the first are to be turned over, rather than the others.
+  /// Whether the faces turned against the first are to be turned over, rather than the others: what
+  /// most of them say; where that is not clear, a closed or hollow piece looks outwards.
   static bool should_flip_others(const Sheet& sheet) {
     constexpr double kClearMajority = 0.25;
     const auto count = static_cast<std::int64_t>(sheet.faces.size());
     const double minority = static_cast<double>(std::min(sheet.flipped, count - sheet.flipped)) /
                             static_cast<double>(count);
-    if (sheet.is_closed && minority > kClearMajority) return sheet.volume >= 0;
+    if (minority > kClearMajority && is_hollow(sheet)) return volume_within(sheet) >= 0;
     if (2 * sheet.flipped != count) return 2 * sheet.flipped < count;
     return 2 * sheet.flipped_area <= sheet.area;
+  }
+
+  /// The volume of an open piece is that of the cones from its centre of area.
+  static double volume_within(const Sheet& sheet) {
+    if (sheet.is_closed || !(sheet.area > 0)) return sheet.volume;
+    return sheet.volume - sheet.centre.dot(sheet.normal) / (3 * sheet.area);
+  }
+
+  /// Whether a piece encloses enough to have an inside: a sphere's volume is 0.094 of what is
+  /// compared with here, half a sphere's 0.1.
+  static bool is_hollow(const Sheet& sheet) {
+    constexpr double kHollow = 0.01;
+    return sheet.is_closed || std::abs(volume_within(sheet)) > kHollow * std::pow(sheet.area, 1.5);
   }
 
   void apply(const std::vector<std::uint8_t>& flip) {

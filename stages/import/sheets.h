@@ -10,8 +10,8 @@ namespace strake::import {
 /// share their vertices.
 ///
 /// In this order: sheets joined by edges of two faces are oriented consistently (the minority of
-/// the faces is turned over; a closed sheet that is nearly evenly divided is turned outwards) and
-/// cut open where they are not orientable; faces at an edge of three or more are paired so that
+/// the faces is turned over; a closed or hollow sheet that is nearly evenly divided is turned
+/// outwards) and cut open where they are not orientable; faces at an edge of three or more are paired so that
 /// solids stay closed and sheets run on as flat as they can, the rest is cut apart there; vertices
 /// with several fans get a copy for each; of several edges with the same two end points all but one
 /// get a vertex in their middle.

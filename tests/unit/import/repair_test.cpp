@@ -173,6 +173,15 @@ TEST(Repair, TurnedFacesFollowTheMajority) {
   EXPECT_NEAR(shapes::volume(half.mesh), expected, 1e-12);
 }
 
+TEST(Repair, OpenPiecesWithoutAClearMajorityLookOutwards) {
+  // Three of five faces of three quarters of a torus look inwards.
+  const PolyMesh open = shapes::filtered(shapes::torus(12, 8), [](Index f) { return f >= 24; });
+  const double expected = shapes::volume(imported(open).mesh);
+  ASSERT_GT(expected, 0);
+  const ImportResult mixed = imported(shapes::turned(open, [](Index f) { return f % 5 < 3; }));
+  EXPECT_NEAR(shapes::volume(mixed.mesh), expected, 1e-12);
+}
+
 TEST(Repair, ConsistentlyInsideOutIsKept) {
   const ImportResult result = imported(shapes::turned(shapes::cube(), [](Index) { return true; }));
   EXPECT_EQ(count(result.report, "repairs.flipped_faces"), 0);
