@@ -19,8 +19,10 @@ namespace {
 /// and from which on it is seen.
 constexpr double kSuspect = 0.04;
 constexpr double kSeen = 0.06;
-/// Largest distance, in the same, from which on a part of the shape is lost.
+/// Largest distance, in the same, from which on a part of the shape is lost, and count up to which
+/// that is looked at: among more cells one such place is a detail, and all lines are worth more.
 constexpr double kShapeLost = 0.8;
+constexpr std::int64_t kMostForPart = 20000;
 /// Share of the faces that cross, from which on cells are no longer in order, and from which on
 /// distances from them say nothing; that of another result which is much less, as a share of it;
 /// and most there may be in one that shows a shape which lines miss.
@@ -75,12 +77,13 @@ double reached(const Session& session, const char* port, const Goal& goal) {
          static_cast<double>(goal.wanted);
 }
 
-bool shows_the_shape(const ResultFaults& faults) {
-  return faults.distance <= kSuspect && faults.largest <= kShapeLost && faults.crossing == 0;
+bool shows_the_shape(const ResultFaults& faults, std::int64_t wanted) {
+  const bool is_part_lost = faults.largest > kShapeLost && wanted <= kMostForPart;
+  return faults.distance <= kSuspect && !is_part_lost && faults.crossing == 0;
 }
 
-bool is_too_coarse(const ResultFaults& faults) {
-  return !shows_the_shape(faults) || faults.missing > kFarOff;
+bool is_too_coarse(const ResultFaults& faults, std::int64_t wanted) {
+  return !shows_the_shape(faults, wanted) || faults.missing > kFarOff;
 }
 
 /// Whether lines are so much farther off than another result that they miss the shape.
@@ -172,9 +175,9 @@ bool DecimatedRival::shows_what_lines_miss(const Session& session, CrossingPlace
 
 bool DecimatedRival::replace_if_too_coarse(Session& session, CrossingPlaces& crossing) {
   const ResultFaults first = faults_of(session, counted_, wanted_, crossing, kFirstSamples);
-  if (first.distance < kFarFromSuspect * kSuspect && !is_too_coarse(first)) return false;
+  if (first.distance < kFarFromSuspect * kSuspect && !is_too_coarse(first, wanted_)) return false;
   const ResultFaults faults = faults_of(session, counted_, wanted_, crossing);
-  if (!is_too_coarse(faults)) return false;
+  if (!is_too_coarse(faults, wanted_)) return false;
   session.say(fmt::format("lines are coarse for this shape at {} {}; decimating to compare",
                           wanted_, name_of(counted_)));
   const Made* other = made(session, crossing);
@@ -196,7 +199,7 @@ bool DecimatedRival::replace_if_too_coarse(Session& session, CrossingPlaces& cro
   }
   std::string why = "lines are too coarse for this shape";
   if (is_spent) why = "faces along lines cross or miss this shape";
-  if (shows_the_shape(faults)) why = "lines miss the count";
+  if (shows_the_shape(faults, wanted_)) why = "lines miss the count";
   session.say(fmt::format(
       "warning: {} at {} {}: the result was decimated instead{}; --lines-only keeps lines", why,
       wanted_, name_of(counted_), triangles));
