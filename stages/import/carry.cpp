@@ -1,22 +1,40 @@
 #include "stages/import/carry.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <vector>
 
 #include "common/geometry/topology/vertex_ring.h"
 
 namespace strake::import {
 namespace {
 
-Colour mean_colour_around(const TriMesh& mesh, Index vertex) {
-  Colour sum{};
-  int count = 0;
-  for_each_neighbour(mesh, vertex, [&](Index v) {
-    if (mesh.source_vertex[v] == kNone) return;
-    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += mesh.attributes.colour[v][i];
-    ++count;
-  });
-  for (double& value : sum) value /= std::max(count, 1);
-  return sum;
+/// Colours the vertices that were inserted, from those around inwards.
+void spread_colours(const TriMesh& mesh, std::vector<Colour>& colours) {
+  std::vector<std::uint8_t> is_known(colours.size(), 0);
+  std::vector<Index> unknown;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    is_known[v] = mesh.source_vertex[v] != kNone ? 1 : 0;
+    if (is_known[v] == 0) unknown.push_back(v);
+  }
+  while (true) {
+    std::vector<Index> reached;
+    for (const Index v : unknown) {
+      Colour sum{};
+      int count = 0;
+      for_each_neighbour(mesh, v, [&](Index u) {
+        if (is_known[u] == 0) return;
+        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += colours[u][i];
+        ++count;
+      });
+      if (count == 0) continue;
+      for (std::size_t i = 0; i < sum.size(); ++i) colours[v][i] = sum[i] / count;
+      reached.push_back(v);
+    }
+    if (reached.empty()) return;
+    for (const Index v : reached) is_known[v] = 1;
+    std::erase_if(unknown, [&](Index v) { return is_known[v] != 0; });
+  }
 }
 
 }  // namespace
@@ -29,9 +47,7 @@ void carry_attributes(const PolyMesh& input, TriMesh& mesh) {
     for (const Index v : mesh.source_vertex) {
       to.colour.push_back(v == kNone ? Colour{} : from.colour[v]);
     }
-    for (Index v = 0; v < mesh.vertex_count(); ++v) {
-      if (mesh.source_vertex[v] == kNone) to.colour[v] = mean_colour_around(mesh, v);
-    }
+    spread_colours(mesh, to.colour);
   }
   to.material_files = from.material_files;
   for (const FaceLabels& labels : from.labels) {

@@ -6,7 +6,7 @@
 namespace strake::import {
 
 /// Gives a mesh the colours and labels of the polygons it was made from, by its sources. A vertex
-/// that was inserted gets the mean colour of its neighbours.
+/// that was inserted gets the mean colour of its neighbours, of those that have one.
 ///
 /// Texture coordinates belong to corners and travel with the faces instead (`Soup::texture`).
 void carry_attributes(const PolyMesh& input, TriMesh& mesh);

@@ -19,6 +19,7 @@
 #include "stages/import/copied_pieces.h"
 #include "stages/import/divide_long_edges.h"
 #include "stages/import/features.h"
+#include "stages/import/fill_holes.h"
 #include "stages/import/flat_faces.h"
 #include "stages/import/gaps.h"
 #include "stages/import/listed_edges.h"
@@ -195,6 +196,33 @@ void report_near_borders(const import::NearBorders& near, double diagonal, Repor
       near.edges, is_one ? "" : "s", where));
 }
 
+/// What is made up where the file has nothing is told of.
+void report_holes(const import::FilledHoles& holes, double diagonal, Report& report) {
+  report.set("holes.filled", holes.filled);
+  report.set("holes.left", holes.left);
+  report.set("holes.widest", holes.widest / diagonal);
+  if (holes.filled > 0) {
+    report.warn(fmt::format("holes filled, of up to {:.2g} % of the diagonal across: {}",
+                            100 * holes.widest / diagonal, holes.filled));
+  }
+  if (holes.left > 0) {
+    report.warn(fmt::format("holes left open that no faces fit into: {}", holes.left));
+  }
+}
+
+/// Many small holes are hardly meant, and each takes three vertices of a result.
+void warn_of_small_holes(const Soup& triangles, double diagonal, Index loops, Report& report) {
+  constexpr Index kMany = 10;
+  constexpr double kSmall = 0.01;  ///< share of the diagonal
+  if (loops < kMany) return;
+  const Index holes = import::count_holes(triangles, kSmall * diagonal);
+  if (holes < kMany) return;
+  report.warn(
+      fmt::format("{} holes are at most {:.0f} % of the diagonal across, and will be in the "
+                  "result; --fill-holes {:.0f}% fills them",
+                  holes, 100 * kSmall, 100 * kSmall));
+}
+
 void report_census(const TriMesh& mesh, const Census& counts, Report& report) {
   report.set("census.vertices", mesh.vertex_count());
   report.set("census.faces", mesh.face_count());
@@ -366,13 +394,14 @@ struct Repaired {
   Repairs repairs;
   double removed_percent = 0;  ///< of the surface
   import::NearBorders near;    ///< that stay open
-  import::Openness openness;   ///< before faces were taken out
+  import::FilledHoles holes;
+  import::Openness openness;  ///< before faces were taken out
 };
 
 /// \throw InputError where repairs are forbidden or would take too much away, or nothing is left
 Repaired repair(const PolyMesh& soup, const ImportOptions& options, Observer& observer) {
   Repaired result;
-  auto& [triangles, frame, repairs, removed_percent, near, openness] = result;
+  auto& [triangles, frame, repairs, removed_percent, near, holes, openness] = result;
   observer.report("triangulating", 0);
   triangles = import::triangulate(soup, repairs);
   import::drop_degenerate_faces(triangles, repairs);
@@ -397,6 +426,10 @@ Repaired repair(const PolyMesh& soup, const ImportOptions& options, Observer& ob
   removed_percent =
       100 * std::max(0.0, 1 - import::total_area(triangles) / (area - repairs.duplicate_area));
   check_removed(removed_percent, options.most_removed_percent, repairs, frame.diagonal);
+  if (options.fill_holes) {
+    observer.report("filling holes", 0.4);
+    holes = import::fill_holes(triangles, options.fill_holes->resolve(frame.diagonal));
+  }
   return result;
 }
 
@@ -454,6 +487,12 @@ ImportResult import_mesh(const PolyMesh& soup, const ImportOptions& options, Obs
   report_repairs(given.repairs, given.removed_percent, given.frame.diagonal, result.report);
   report_openings(given.openness, repaired, result.report);
   report_near_borders(given.near, given.frame.diagonal, result.report);
+  if (options.fill_holes) {
+    report_holes(given.holes, given.frame.diagonal, result.report);
+  } else {
+    warn_of_small_holes(given.triangles, given.frame.diagonal, counts.boundary_loops,
+                        result.report);
+  }
   report_features(features, result.report);
   report_attributes(result.mesh.attributes, result.report);
   observer.report("done", 1);

@@ -25,7 +25,9 @@ struct ImportOptions {
   bool no_attributes = false;                ///< leave out colours, texture coordinates and labels
   /// Largest share of the area that repairs may take away. Not counted is what is there twice.
   double most_removed_percent = 10;
-  bool strict = false;               ///< refuse what would have to be repaired
+  bool strict = false;  ///< refuse what would have to be repaired
+  /// How far holes are across, at most, that are filled; default: none is
+  std::optional<Length> fill_holes = std::nullopt;
   bool outwards = false;             ///< turn closed components that are inside out over
   std::int64_t denoise = 0;          ///< rounds in which noise is taken off
   Length longest_edge = percent(5);  ///< longer ones are divided, after all repairs

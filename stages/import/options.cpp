@@ -67,6 +67,13 @@ OptionList ImportOptions::declare() {
            "what is there twice does not count.",
        .min = 0,
        .max = 100},
+      {.name = "fill-holes",
+       .target = &fill_holes,
+       .unit = "length",
+       .help = "Fill holes that are at most this far across with faces that go on from the surface "
+               "smoothly; where a piece ends, with an outline of more than half its size, stays.",
+       .min = 1e-6,
+       .max = 1},
       {.name = "outwards",
        .target = &outwards,
        .unit = "",

@@ -24,7 +24,7 @@ ImportResult import_file(const Inputs& inputs, const ImportOptions& options, Obs
 Stage import_stage() {
   Stage stage;
   stage.name = "import";
-  stage.version = 23;
+  stage.version = 24;
   stage.summary = "Turns a mesh file into a sound triangle mesh with its feature graph.";
   stage.inputs = {
       {"input", PortKind::polygons, "mesh file: OBJ, PLY, OFF or STL"},
