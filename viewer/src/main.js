@@ -84,7 +84,8 @@ class App {
     if (view.pick && !exists(view.pick, this.runs)) view.pick = null;
     for (const button of this.tabButtons) button.setAttribute("aria-selected", String(button.dataset.tab === view.tab));
     this.pages[view.tab] ??= view.tab === "figures" ? figuresPage(this.runs) : originPage(this.runs, this.report);
-    this.body.replaceChildren(this.pages[view.tab]);
+    // What is put in anew loses focus, place of scrolling, and the slider that is being dragged.
+    if (this.body.firstChild !== this.pages[view.tab]) this.body.replaceChildren(this.pages[view.tab]);
     mark(this.stage.highlight, view.pick, this.runs);
     this.numbers.hidden = !view.pick;
     if (view.pick) this.numbers.replaceChildren(...numbersPanel(view.pick, this.runs, () => this.set(() => (view.pick = null))));

@@ -149,6 +149,31 @@ async function checkFit(page) {
   assert.ok(distances[1] > 1.02 * distances[0] && distances[2] === distances[0], `distances ${distances}`);
 }
 
+/** The panel stays as it is while it is used: sliders follow the pointer, what has focus keeps it, lists stay scrolled. */
+async function checkPanel(browser, report) {
+  const page = await open(browser, report, "#section=x,0.5", { viewport: { width: 800, height: 900 } });
+  const place = () => page.evaluate(() => window.strakeReport.view.section.place);
+  const slider = await page.locator("input[type=range]").boundingBox();
+  await page.mouse.move(slider.x + slider.width / 2, slider.y + slider.height / 2);
+  await page.mouse.down();
+  for (const share of [0.6, 0.7, 0.8]) await page.mouse.move(slider.x + share * slider.width, slider.y + slider.height / 2);
+  await page.mouse.up();
+  assert.ok((await place()) > 0.7, `the slider was left at ${await place()}`);
+  await page.locator("input[type=range]").focus();
+  await page.keyboard.press("Home");
+  await page.keyboard.press("ArrowRight");
+  assert.equal(await place(), 0.005, "the slider lost the keys");
+  await page.setViewportSize({ width: 800, height: 300 });
+  const toggle = page.locator("input[data-key='layer triangles']");
+  await toggle.focus();
+  const scrolled = () => page.evaluate(() => document.querySelector(".controls").scrollTop);
+  const before = await scrolled();
+  await page.keyboard.press(" ");
+  assert.ok(before > 0 && (await scrolled()) === before, `the panel went from ${before} to ${await scrolled()}`);
+  assert.ok(await toggle.evaluate((box) => box === document.activeElement), "a toggle lost focus");
+  await page.context().close();
+}
+
 async function checkLayers(page, report) {
   const first = await drawing(page);
   const guides = report.hasAttributes ? ["Guide lines"] : [];
@@ -281,6 +306,7 @@ try {
     await checkLayers(page, report);
     await checkFigures(page, report);
     await page.context().close();
+    await checkPanel(browser, report);
     await checkPicking(browser, report);
     await checkLink(browser, report);
     await checkSection(browser, report);
