@@ -49,10 +49,7 @@ export class Controls {
 
   compare() {
     const { view } = this;
-    const box = el("section", {}, this.choice("Compare", [["one", "One view"], ["side", "Side by side", "S"], ["wipe", "Wipe", "W"]], view.compare, (value) => {
-      view.compare = value;
-      if (value === "one") view.edited = 0;
-    }));
+    const box = el("section", {}, this.choice("Compare", [["one", "One view"], ["side", "Side by side", "S"], ["wipe", "Wipe", "W"]], view.compare, (value) => compareBy(view, value)));
     if (view.compare !== "one") {
       box.append(this.choice("View to set", [[0, "Left view"], [1, "Right view"]], view.edited, (value) => (view.edited = value)));
     }
@@ -125,6 +122,12 @@ export class Controls {
     const texts = [facesShown(run.surface), ...run.about.missing].filter(Boolean);
     return texts.length > 0 && el("section", { class: "notes" }, texts.map((text) => el("p", {}, text)));
   }
+}
+
+/** One view is the left one, so that one is set then. */
+export function compareBy(view, how) {
+  view.compare = how;
+  if (how === "one") view.edited = 0;
 }
 
 export function flip(set, name) {

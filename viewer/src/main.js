@@ -1,5 +1,5 @@
 // The report's page: reads its data, builds the parts, and keeps them in step.
-import { Controls, flip } from "./controls.js";
+import { Controls, compareBy, flip } from "./controls.js";
 import { readReport } from "./decode.js";
 import { el } from "./dom.js";
 import { figuresPage, headline } from "./figures.js";
@@ -192,8 +192,8 @@ class App {
       l: () => flipLines(pane.layers),
       d: () => flip(pane.layers, "principal"),
       x: () => (view.section.axis = { none: "x", x: "y", y: "z", z: "none" }[view.section.axis]),
-      s: () => (view.compare = view.compare === "side" ? "one" : "side"),
-      w: () => (view.compare = view.compare === "wipe" ? "one" : "wipe"),
+      s: () => compareBy(view, view.compare === "side" ? "one" : "side"),
+      w: () => compareBy(view, view.compare === "wipe" ? "one" : "wipe"),
       Escape: () => (view.pick = null),
     };
     const name = event.key.length === 1 ? event.key.toLowerCase() : event.key;

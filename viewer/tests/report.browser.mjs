@@ -163,6 +163,13 @@ async function checkPanel(browser, report) {
   await page.keyboard.press("Home");
   await page.keyboard.press("ArrowRight");
   assert.equal(await place(), 0.005, "the slider lost the keys");
+  // The keys are for the view that is there.
+  await page.keyboard.press("Tab");
+  await page.keyboard.press("s");
+  await page.getByRole("button", { name: "Right view" }).click();
+  await page.keyboard.press("s");
+  await page.keyboard.press("1");
+  assert.equal(await page.evaluate(() => window.strakeReport.view.panes[0].base), "input", "a key set the view that is not there");
   await page.setViewportSize({ width: 800, height: 300 });
   const toggle = page.locator("input[data-key='layer triangles']");
   await toggle.focus();
