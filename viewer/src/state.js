@@ -64,14 +64,16 @@ export function fromHash(hash, view, runCount) {
     view.section = { axis, place: Math.min(Math.max(Number(place) || 0, 0), 1), flipped: flipped === "flipped" };
   }
   const [run, kind, index] = list("pick");
-  if (Number(run) < runCount && ["face", "vertex", "line", "input"].includes(kind) && Number.isInteger(Number(index))) {
+  if (isRun(run, runCount) && ["face", "vertex", "line", "input"].includes(kind) && Number.isInteger(Number(index))) {
     view.pick = { run: Number(run), kind, index: Number(index) };
   }
   return view;
 }
 
+const isRun = (text, runCount) => Number.isInteger(Number(text)) && Number(text) >= 0 && Number(text) < runCount;
+
 function readPane([run, base, input, result, layers], pane, runCount) {
-  if (Number.isInteger(Number(run)) && Number(run) >= 0 && Number(run) < runCount) pane.run = Number(run);
+  if (isRun(run, runCount)) pane.run = Number(run);
   if (["input", "result", "none"].includes(base)) pane.base = base;
   if (Object.hasOwn(inputColourings, input)) pane.colour.input = input;
   if (Object.hasOwn(resultColourings, result)) pane.colour.result = result;

@@ -18,7 +18,7 @@ test("a view comes back from its address", () => {
 test("what an address cannot say is left out", () => {
   const nonsense = [
     "", "#", "#tab=secret", "#a=7,moon,red,blue,edgesX", "#camera=1,2", "#camera=a,b,c,d,e,f",
-    "#section=w,0.5", "#pick=9,face,1", "#pick=0,moon,1", "#pick=0,face,x", "#compare=side,7", "#=&&==",
+    "#section=w,0.5", "#pick=9,face,1", "#pick=-1,face,1", "#pick=0.5,face,1", "#pick=0,moon,1", "#pick=0,face,x", "#compare=side,7", "#=&&==",
   ];
   for (const hash of nonsense) {
     const view = fromHash(hash, firstView(1), 1);
