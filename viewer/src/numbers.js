@@ -1,6 +1,6 @@
 // The numbers of what was picked, and its mark in the drawing.
 import { endNames, familyNames } from "./colours.js";
-import { count, el, figure, percent } from "./dom.js";
+import { coordinate, count, el, figure, percent } from "./dom.js";
 import { marks, strokes } from "./objects.js";
 import { faceDistance } from "./tints.js";
 
@@ -34,7 +34,7 @@ function modelPoint(run, point) {
   const { diagonal, centre } = run.surface.frame;
   return point.map((x, k) => x * diagonal + centre[k] + run.surface.about.origin[k]);
 }
-const pointText = (run, point) => modelPoint(run, point).map((x) => figure(x, 5)).join(", ");
+const pointText = (run, point) => modelPoint(run, point).map((x) => coordinate(x, run.surface.frame.diagonal)).join(", ");
 
 function describeFace(run, face) {
   const result = run.result();
