@@ -42,16 +42,19 @@ function describeFace(run, face) {
   const corners = [...result.corners.subarray(result.offsets[face], result.offsets[face + 1])];
   const places = corners.map((v) => at(result.points, v));
   const angles = [];
+  const turns = [];
   const lengths = [];
   let normal = [0, 0, 0];
   places.forEach((p, i) => {
     const next = places[(i + 1) % places.length];
     const before = places[(i + places.length - 1) % places.length];
     const [u, v] = [minus(next, p), minus(before, p)];
-    angles.push((Math.atan2(Math.hypot(...cross(u, v)), dot(u, v)) * 180) / Math.PI);
+    turns.push(cross(u, v));
+    angles.push((Math.atan2(Math.hypot(...turns[i]), dot(u, v)) * 180) / Math.PI);
     lengths.push(Math.hypot(...u) * diagonal);
     normal = normal.map((x, k) => x + cross(minus(p, places[0]), minus(next, places[0]))[k]);
   });
+  turns.forEach((turn, i) => dot(turn, normal) < 0 && (angles[i] = 360 - angles[i])); // a reflex corner
   const distance = faceDistance(run, face);
   return {
     title: `Face ${face}`,
