@@ -110,7 +110,7 @@ const plots = [
 
 function histograms(runs) {
   return el("div", { class: "plots" }, plots.map(([name, title, write]) => {
-    const having = runs.filter((run) => run.about.histograms[name]);
+    const having = runs.filter((run) => run.about.histograms[name]?.shares.some((share) => share > 0));
     return having.length > 0 && el("figure", {}, el("figcaption", {}, title), plot(runs, name, write));
   }));
 }
