@@ -2,7 +2,7 @@
 import { cssColour, endColours, endNames, familyColours, guideColour, scaleGradient, sideColours, unjudgedColour } from "./colours.js";
 import { count, el, figure, percent } from "./dom.js";
 import { facesShown } from "./numbers.js";
-import { colouringsOf, curvatureEnd, distanceEnd, labelColour } from "./tints.js";
+import { colouringsOf, curvatureEnd, distanceEnd, labelColour, shownColouring } from "./tints.js";
 
 /** Builds the panel; call `refresh` after the view has changed elsewhere. */
 export class Controls {
@@ -70,9 +70,10 @@ export class Controls {
     const box = el("section", {}, el("h2", {}, "Surface"),
       this.choice("Surface", [["input", "Input", "1"], ["result", "Result", "2"], ["none", "None", "0"]], pane.base, (value) => (pane.base = value)));
     if (pane.base !== "none") {
+      const shown = shownColouring(run, pane.base, pane.colour[pane.base]);
       box.append(el("select", { "data-key": "colour", "aria-label": "Colour", title: "Colour (C)", onchange: (event) => this.set(() => (pane.colour[pane.base] = event.target.value)) },
-        colouringsOf(run, pane.base).map(([value, label]) => el("option", { value, selected: value === pane.colour[pane.base] }, label))));
-      box.append(legend(run, this.runs, pane));
+        colouringsOf(run, pane.base).map(([value, label]) => el("option", { value, selected: value === shown }, label))));
+      box.append(legend(run, this.runs, pane.base, shown));
     }
     box.append(this.toggle("edges", "Edges of the result", { key: "E" }), this.toggle("triangles", "Edges of the input"));
     return box;
@@ -134,17 +135,16 @@ export function flip(set, name) {
   if (!set.delete(name)) set.add(name);
 }
 
-function legend(run, runs, pane) {
-  const colouring = pane.colour[pane.base];
-  if (pane.base === "result") {
+function legend(run, runs, base, colouring) {
+  if (base === "result") {
     if (colouring === "sides") return sidesLegend(run);
     if (colouring === "alignment") return alignmentLegend();
-    if (colouring === "labels" && run.result().labels()) return labelsLegend(run);
+    if (colouring === "labels") return labelsLegend(run);
     if (colouring === "distance") return ramp("distance", ["0", `${percent(distanceEnd(runs), 2)} of the diagonal`]);
     return "";
   }
   if (colouring === "confidence") return ramp("confidence", ["0: unreliable", "1: clear"]);
-  if (!["k_min", "k_max"].includes(colouring) || !run.surface.about.curvature) return "";
+  if (!["k_min", "k_max"].includes(colouring)) return "";
   const end = figure(curvatureEnd(run.surface) / run.surface.about.diagonal, 2);
   return ramp("diverging", [`\u2212${end}`, "0", `+${end}`], ["concave", "flat", "convex"]);
 }

@@ -9,7 +9,7 @@ import { originPage } from "./origin.js";
 import { pickAt } from "./pick.js";
 import { Stage } from "./stage.js";
 import { firstView, fromHash, toHash } from "./state.js";
-import { colouringsOf } from "./tints.js";
+import { colouringsOf, shownColouring } from "./tints.js";
 
 const tabs = [["surface", "Surface"], ["figures", "Figures"], ["origin", "Origin"]];
 
@@ -213,7 +213,7 @@ function flipLines(layers) {
 function nextColour(pane, run) {
   if (pane.base === "none") return;
   const names = colouringsOf(run, pane.base).map(([name]) => name);
-  pane.colour[pane.base] = names[(names.indexOf(pane.colour[pane.base]) + 1) % names.length];
+  pane.colour[pane.base] = names[(names.indexOf(shownColouring(run, pane.base, pane.colour[pane.base])) + 1) % names.length];
 }
 
 async function start() {

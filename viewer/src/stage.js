@@ -3,6 +3,7 @@ import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { section } from "./materials.js";
 import { RunObjects, SharedObjects } from "./objects.js";
+import { shownColouring } from "./tints.js";
 
 const firstDirection = new THREE.Vector3(0.55, 0.35, 0.85).normalize();
 const margin = 1.12;
@@ -230,8 +231,7 @@ function visibleObjects(pane, section, objects) {
   const of = objects[pane.run];
   const lines = of.run.lines();
   const shown = [];
-  if (pane.base === "input") shown.push(["input", of.input(pane.colour.input)]);
-  if (pane.base === "result") shown.push(["result", of.result(pane.colour.result)]);
+  if (pane.base !== "none") shown.push([pane.base, of[pane.base](shownColouring(of.run, pane.base, pane.colour[pane.base]))]);
   if (pane.base !== "none" && section.axis !== "none") shown.push(["cut", of.cut(pane.base, section)]);
   if (pane.layers.has("edges")) shown.push(["edges", of.edges()]);
   if (pane.layers.has("triangles")) shown.push(["triangles", of.triangles()]);

@@ -27,6 +27,12 @@ export function colouringsOf(run, base) {
   return Object.entries(all).filter(([, { needs }]) => !needs || has[needs]).map(([name, { label }]) => [name, label]);
 }
 
+/** The way to colour that is shown: the wanted one, or the first where the run has not what that takes. */
+export function shownColouring(run, base, wanted) {
+  const names = colouringsOf(run, base).map(([name]) => name);
+  return names.includes(wanted) ? wanted : names[0];
+}
+
 /** Bytes of [r, g, b] per vertex of the input. */
 export function inputTints(surface, colouring) {
   const tints = new Uint8Array(surface.points.length);
@@ -37,8 +43,8 @@ export function inputTints(surface, colouring) {
 
 function vertexColour(surface, colouring) {
   if (colouring === "confidence") return (v) => scaleColour("confidence", surface.confidence[v]);
-  if (colouring === "colours" && surface.colours()) return (v) => surface.colours().subarray(4 * v, 4 * v + 3);
-  if (colouring === "plain" || colouring === "colours" || !surface.curvature()) return () => plainColour;
+  if (colouring === "colours") return (v) => surface.colours().subarray(4 * v, 4 * v + 3);
+  if (colouring === "plain") return () => plainColour;
   const values = colouring === "k_min" ? surface.curvature().kMin : surface.curvature().kMax;
   const end = curvatureEnd(surface);
   return (v) => scaleColour("diverging", curvatureShare(values[v], end));
@@ -65,8 +71,8 @@ export function faceTints(run, colouring, end) {
 function faceColour(run, result, colouring, face, end) {
   if (colouring === "sides") return sideColours[result.sides[face]] ?? sideColours.more;
   if (colouring === "alignment") return angleColour(result.angle(face));
-  if (colouring === "colours" && result.colours()) return meanColour(result, face);
-  if (colouring === "labels" && result.labels()) return labelColour(result.labels()[face]);
+  if (colouring === "colours") return meanColour(result, face);
+  if (colouring === "labels") return labelColour(result.labels()[face]);
   if (colouring !== "distance") return plainColour;
   return scaleColour("distance", faceDistance(run, face) / end);
 }
