@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -238,7 +239,8 @@ void draw_file(const Arguments& arguments) {
 
 void run(Arguments arguments) {
   interpret(arguments);
-  if (std::filesystem::is_directory(arguments.mesh)) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(arguments.mesh, ignored)) {
     draw_run(arguments);
   } else {
     draw_file(arguments);

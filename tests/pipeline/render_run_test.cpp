@@ -22,6 +22,10 @@ TEST_F(RenderRun, AModelIsNotReplacedByItsPicture) {
   EXPECT_FALSE(std::filesystem::exists(file("part.jpg")));
 }
 
+TEST_F(RenderRun, ANameThatNoFileCanHaveIsBadInput) {
+  must_fail(kBadInput, "strake-render " + std::string(300, 'x') + " -o x.png", "xxx");
+}
+
 TEST_F(RenderRun, CamerasThatAreNowhereAreRefused) {
   must("strake sample part -o part.ply --faces 500");
   const std::string draw = "strake-render part.ply -o part.png --size 64x64 --samples 1 ";
