@@ -37,10 +37,25 @@ std::vector<fs::path> files_in(const fs::path& folder) {
     throw InputError("folder '" + folder.string() +
                      "' is not there; give one that 'strake remesh --keep FOLDER' made");
   }
+  const fs::directory_iterator entries(folder, error);
+  if (error) {
+    throw InputError("folder '" + folder.string() + "' cannot be read: " + error.message() +
+                     "; check its rights");
+  }
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
+  for (const auto& entry : entries) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;
+}
+
+/// Whether this is what a stage reports, and not a file of something else.
+bool is_record(const Json& json) {
+  const auto has = [&](const char* member, Json::value_t type) {
+    return json.contains(member) && json[member].type() == type;
+  };
+  using enum Json::value_t;
+  return has("stage", string) && has("options", object) && has("inputs", object) &&
+         has("result", object) && has("warnings", array);
 }
 
 /// The artifacts and reports of a run.
@@ -90,7 +105,7 @@ void Sources::read_json(const fs::path& file) {
   Json json = Json::parse(read_text(file), nullptr, false);
   if (json.is_discarded()) throw InputError(file.string() + ": is no JSON; write it again");
   if (!json.is_object()) return;
-  if (json.contains("stage") && json.contains("result")) {
+  if (is_record(json)) {
     records_.push_back(std::move(json));
   } else if (file.filename() == "times.json" && json.contains("seconds")) {
     seconds_ = json["seconds"];

@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <filesystem>
 
 #include "tests/pipeline/run_program.h"
@@ -28,6 +30,24 @@ TEST_F(ReportCommand, SaysWhatAFolderLacksAndWritesNothing) {
   must_fail(4, "strake report empty -o report.html", "mesh");
   put("empty/evaluate.json", "{ no json");
   must_fail(3, "strake report empty -o report.html", "evaluate.json");
+}
+
+TEST_F(ReportCommand, LeavesJsonOfOthersAlone) {
+  STRAKE_VIEWER_OR_SKIP();
+  must("strake report run -o alone.html");
+  put("run/build.json", R"({"stage": 3, "result": "passed"})");
+  put("run/tests.json", R"({"stage": "tests", "result": {"passed": 7}})");
+  must("strake report run -o beside.html");
+  EXPECT_EQ(bytes("beside.html"), bytes("alone.html"));
+}
+
+TEST_F(ReportCommand, AFolderThatCannotBeReadIsNamed) {
+  if (::geteuid() == 0) GTEST_SKIP() << "the superuser can read every folder";
+  fs::permissions(file("run"), fs::perms::none);
+  const Outcome refused = run("strake report run -o report.html");
+  fs::permissions(file("run"), fs::perms::owner_all);
+  EXPECT_EQ(refused.exit_code, kBadInput) << refused.err;
+  EXPECT_NE(refused.err.find("folder 'run' cannot be read"), std::string::npos) << refused.err;
 }
 
 TEST_F(ReportCommand, TwoResultsInAFolderAreOneTooMany) {
