@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <CLI/App.hpp>
+#include <cstddef>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -32,6 +34,15 @@ void require_viewer() {
       "install nodejs and npm), then scripts/build_viewer, and build strake again");
 }
 
+/// Gives runs from folders of the same name that of the path as it was given.
+void tell_apart(std::vector<report::RunFiles>& runs, const std::vector<std::string>& folders) {
+  std::map<std::string, int> count;
+  for (const report::RunFiles& run : runs) ++count[run.name];
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (count[runs[i].name] > 1) runs[i].name = folders[i];
+  }
+}
+
 std::vector<report::RunFiles> read_runs(const ReportCommand& command) {
   std::vector<report::RunFiles> runs;
   if (command.pipeline.empty()) {
@@ -40,6 +51,7 @@ std::vector<report::RunFiles> read_runs(const ReportCommand& command) {
           "name a folder that 'strake remesh --keep FOLDER' made, or a pipeline: --pipeline FILE");
     }
     for (const std::string& folder : command.runs) runs.push_back(report::read_run(folder));
+    tell_apart(runs, command.runs);
     return runs;
   }
   PipelineOptions pipeline;

@@ -32,6 +32,16 @@ TEST_F(ReportCommand, SaysWhatAFolderLacksAndWritesNothing) {
   must_fail(3, "strake report empty -o report.html", "evaluate.json");
 }
 
+TEST_F(ReportCommand, RunsFromFoldersOfTheSameNameCanBeToldApart) {
+  STRAKE_VIEWER_OR_SKIP();
+  fs::create_directory(file("fine"));
+  fs::copy(file("run"), file("fine/run"));
+  must("strake report run fine/run -o report.html");
+  const std::string page = bytes("report.html");
+  EXPECT_NE(page.find("\"name\":\"run\""), std::string::npos);
+  EXPECT_NE(page.find("\"name\":\"fine/run\""), std::string::npos);
+}
+
 TEST_F(ReportCommand, LeavesJsonOfOthersAlone) {
   STRAKE_VIEWER_OR_SKIP();
   must("strake report run -o alone.html");
