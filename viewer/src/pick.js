@@ -19,7 +19,7 @@ export function pickAt(stage, x, y) {
   const hit = pane.base === "none" ? null : nearestHit(caster.ray, surface, sectionOf(stage));
   // Through the filled cut one sees nothing of what lies behind it.
   if (hit?.isInside && surface.about.is_closed && stage.view.section.axis !== "none") return null;
-  const limit = hit ? hit.distance + 0.01 : Infinity;
+  const limit = hit ? screen(caster.ray.at(hit.distance, new THREE.Vector3()).toArray(), 0, [0, 0, 0])[2] + 0.01 : Infinity;
   const near = (kind, index) => index >= 0 && { run: pane.run, kind, index };
   return (
     (pane.base === "result" && hit && near("vertex", nearestCorner(run.result(), hit, screen, x, y))) ||
@@ -38,7 +38,7 @@ const sectionOf = (stage) => {
   return (point) => (flipped ? point[k] < place - 0.5 : point[k] > place - 0.5);
 };
 
-/** Projects points to CSS pixels and their distance from the eye. */
+/** Projects points to CSS pixels and their depth before the eye, which is less than their distance beside the middle. */
 function projector(camera, area) {
   const matrix = new THREE.Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
   const m = matrix.elements;
