@@ -7,6 +7,7 @@
 #include "common/artifact/meshfile/mapped_file.h"
 #include "common/artifact/meshfile/text_scanner.h"
 #include "common/core/error.h"
+#include "common/core/text.h"
 
 namespace strake {
 namespace {
@@ -46,6 +47,7 @@ void read_line(std::string_view text, int line, EdgeList& list) {
 EdgeList parse_edge_list(std::string_view text, const std::string& name) {
   EdgeList list;
   list.name = name;
+  text = without_byte_order_mark(text);
   for (int line = 1; !text.empty(); ++line) {
     const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
     const std::string_view content = text.substr(0, end);

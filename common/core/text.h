@@ -18,4 +18,7 @@ bool has_control_characters(std::string_view text);
 /// Text that stays on one line: '?' for each control character.
 std::string on_one_line(std::string text);
 
+/// A text without the byte order mark that some editors put before UTF-8.
+std::string_view without_byte_order_mark(std::string_view text);
+
 }  // namespace strake

@@ -6,6 +6,7 @@
 
 #include "common/core/error.h"
 #include "common/core/number_text.h"
+#include "common/core/text.h"
 
 namespace strake {
 namespace {
@@ -34,6 +35,7 @@ Polylines read_polylines(const std::filesystem::path& path) {
   std::string text;
   std::string group;
   for (std::size_t number = 1; std::getline(in, text); ++number) {
+    if (number == 1) text = std::string(without_byte_order_mark(text));
     std::istringstream record(text);
     std::string word;
     record >> word;

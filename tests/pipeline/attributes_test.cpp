@@ -116,7 +116,7 @@ TEST_F(AttributeFiles, ListedEdgesAreEdgesOfTheResult) {
   // A bent line across a flat sheet of 20 x 20: up to (9, 8), then right to the boundary.
   const int n = 20;
   write_mesh(file("sheet.obj"), sheet(n));
-  std::string list = "# up\n\n";
+  std::string list = "\xEF\xBB\xBF# up, as some editors write it\n\n";
   for (int j = 0; j <= 8; ++j) list += std::to_string(j * (n + 1) + 9) + " ";
   list += "  # and to the right\r\n";
   for (int i = 9; i < n; ++i) {

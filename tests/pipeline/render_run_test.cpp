@@ -22,6 +22,18 @@ TEST_F(RenderRun, AModelIsNotReplacedByItsPicture) {
   EXPECT_FALSE(std::filesystem::exists(file("part.jpg")));
 }
 
+TEST_F(RenderRun, LinesMayBeginWithAByteOrderMark) {
+  must("strake sample part -o part.ply --faces 500");
+  const std::string lines = "v 0 0 0\nv 1 0 0\nl 1 2\n";
+  put("plain.obj", lines);
+  put("marked.obj", "\xEF\xBB\xBF" + lines);
+  for (const std::string name : {"plain", "marked"}) {
+    must("strake-render part.ply -o " + name + ".png --size 64x64 --samples 1 --lines " + name +
+         ".obj");
+  }
+  EXPECT_EQ(bytes("plain.png"), bytes("marked.png"));
+}
+
 TEST_F(RenderRun, ANameThatNoFileCanHaveIsBadInput) {
   must_fail(kBadInput, "strake-render " + std::string(300, 'x') + " -o x.png", "xxx");
 }

@@ -13,6 +13,7 @@
 #include "common/artifact/meshfile/ply_row.h"
 #include "common/artifact/meshfile/ply_values.h"
 #include "common/core/error.h"
+#include "common/core/text.h"
 
 namespace strake {
 namespace {
@@ -67,6 +68,7 @@ DensityField read_vertices(Source source, const PlyHeader& header) {
 }  // namespace
 
 DensityField parse_density(std::string_view bytes) {
+  bytes = without_byte_order_mark(bytes);
   if (!bytes.starts_with("ply")) throw InputError("is no PLY file, which alone can hold a density");
   ReadReport report;
   const PlyHeader header = read_ply_header(bytes, report);

@@ -11,6 +11,7 @@
 #include "common/artifact/meshfile/ply_values.h"
 #include "common/artifact/meshfile/text_scanner.h"
 #include "common/core/error.h"
+#include "common/core/text.h"
 
 namespace strake {
 namespace {
@@ -128,6 +129,7 @@ GuideLines parse_ply(Source source, const PlyHeader& header, GuideBuilder builde
 
 GuideLines parse_guides(std::string_view bytes, const std::string& name) {
   GuideBuilder builder(name);
+  bytes = without_byte_order_mark(bytes);
   if (!bytes.starts_with("ply")) return parse_obj(bytes, std::move(builder));
   ReadReport report;
   PlyHeader header;

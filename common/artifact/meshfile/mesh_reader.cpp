@@ -175,7 +175,7 @@ void ReadReport::add_to(Report& report) const {
 PolyMesh parse_mesh(std::string_view bytes, std::string_view extension, ReadReport& report) {
   report = {};
   if (bytes.empty()) throw InputError("is empty");
-  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);  // UTF-8 byte order mark
+  bytes = without_byte_order_mark(bytes);
   const Format promised = format_of_extension(extension);
   Format format = format_of_content(bytes);
   report.extension_differs =

@@ -271,6 +271,9 @@ TEST(GuideFiles, AreReadFromObjAndPly) {
   const GuideLines obj = parse_guides(
       "# drawn\nv 0 0 0\nv 1 0 .5\nv 1 2 0\nvt 0 0\nl 1/1 2/1 \\\n 3\nf 1 2 3\nl -1 -3\n", "a");
   EXPECT_EQ(obj.lines, lines);
+  EXPECT_EQ(parse_guides("\xEF\xBB\xBFv 0 0 0\nv 1 0 .5\nv 1 2 0\nl 1 2 3\nl 3 1\n", "a").lines,
+            lines)
+      << "as some editors write it";
   const std::string header =
       "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
       "element face 1\nproperty list uchar int vertex_indices\n"
