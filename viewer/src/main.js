@@ -7,7 +7,7 @@ import { openModel } from "./model.js";
 import { exists, mark, numbersPanel } from "./numbers.js";
 import { originPage } from "./origin.js";
 import { pickAt } from "./pick.js";
-import { Stage } from "./stage.js";
+import { makeStage } from "./stage.js";
 import { firstView, fromHash, toHash } from "./state.js";
 import { colouringsOf, shownColouring } from "./tints.js";
 
@@ -43,7 +43,7 @@ class App {
     this.pages = { surface: this.surface };
     this.body = el("div", { class: "body" }, this.surface);
     document.getElementById("app").replaceChildren(this.header(), this.body, this.help);
-    this.stage = new Stage(this.frame, runs, this.view, () => this.noteAddress());
+    this.stage = makeStage(this.frame, runs, this.view, () => this.noteAddress());
     this.frame.append(this.labels, this.divider, this.numbers);
     this.listen();
     this.update();

@@ -1,6 +1,7 @@
 // The drawing area: camera, panes, section. Draws when something has changed, not all the time.
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { el } from "./dom.js";
 import { section } from "./materials.js";
 import { RunObjects, SharedObjects } from "./objects.js";
 import { shownColouring } from "./tints.js";
@@ -10,23 +11,53 @@ const margin = 1.12;
 const headroom = 44; // pixels at the top that labels cover
 const restMs = 600;
 
-/** Whether there is no graphics processor: multisampling takes three times as long then. */
-function drawsInSoftware() {
+/** What the browser draws with: "processor" where there is none for graphics, "none" where it does not draw at all. */
+function graphics() {
   const gl = document.createElement("canvas").getContext("webgl2");
-  const name = gl?.getExtension("WEBGL_debug_renderer_info");
+  if (!gl) return "none";
+  const name = gl.getExtension("WEBGL_debug_renderer_info");
   const isSoftware = Boolean(name) && /swiftshader|llvmpipe|software|basic render/i.test(gl.getParameter(name.UNMASKED_RENDERER_WEBGL));
-  gl?.getExtension("WEBGL_lose_context")?.loseContext();
-  return isSoftware;
+  gl.getExtension("WEBGL_lose_context")?.loseContext();
+  return isSoftware ? "processor" : "graphics";
 }
 
-export class Stage {
-  /** \param changed  called after the user has moved the camera */
-  constructor(container, runs, view, changed) {
+/** A stage, or what stands in for it where the browser cannot draw. */
+export function makeStage(container, runs, view, changed) {
+  const means = graphics();
+  return means === "none" ? new NoStage(container) : new Stage(container, runs, view, changed, means === "processor");
+}
+
+/** Draws nothing, so that figures and origin can be read all the same. */
+class NoStage {
+  constructor(container) {
+    this.highlight = new THREE.Group();
+    this.canvas = el("p", { class: "waiting" },
+      "This browser does not draw in space: it has no WebGL 2, or it is switched off. Figures and origin are there; surfaces are shown by another browser, or once its settings allow hardware acceleration.");
+    container.append(this.canvas);
+  }
+
+  areas() {
+    return [];
+  }
+
+  draw() {}
+  drawNow() {}
+  placeCamera() {}
+  reset() {}
+  turn() {}
+}
+
+class Stage {
+  /**
+   * \param changed  called after the user has moved the camera
+   * \param isSoftware  whether there is no graphics processor: multisampling takes three times as long then
+   */
+  constructor(container, runs, view, changed, isSoftware) {
     this.runs = runs;
     this.view = view;
     const shared = new SharedObjects();
     this.objects = runs.map((run) => new RunObjects(run, runs, shared));
-    this.isSoftware = drawsInSoftware();
+    this.isSoftware = isSoftware;
     this.renderer = new THREE.WebGLRenderer({ antialias: !this.isSoftware, preserveDrawingBuffer: true, stencil: true });
     THREE.ColorManagement.enabled = false;
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;

@@ -273,6 +273,20 @@ async function checkLink(browser, report) {
   for (const opened of [page, copy, copied]) await opened.context().close();
 }
 
+/** Without WebGL figures and origin are there, and the stage says what it takes. */
+async function checkWithoutGraphics(report) {
+  const plain = await chromium.launch({ executablePath, args: ["--no-sandbox", "--headless=new", "--disable-3d-apis"] });
+  try {
+    const page = await open(plain, report, "#compare=side,0.5&pick=0,face,0");
+    assert.match(await page.locator(".stage").textContent(), /no WebGL 2/);
+    await page.locator(".stage .waiting").click();
+    for (const key of ["ArrowLeft", "r", "t", "x", "c"]) await page.keyboard.press(key);
+    await checkFigures(page, report);
+  } finally {
+    await plain.close();
+  }
+}
+
 async function checkLooks(browser, report) {
   const compared = "#compare=side,0.5&a=0,input,k_max,sides,minimum+maximum+ends&b=0,result,plain,distance,edges";
   const wiped = "#compare=wipe,0.5&a=0,input,k_max,sides,&b=0,result,plain,alignment,edges&section=y,0.5";
@@ -317,6 +331,7 @@ try {
     await checkPicking(browser, report);
     await checkLink(browser, report);
     await checkSection(browser, report);
+    await checkWithoutGraphics(report);
     if (!process.env.CI || !report.isLarge) await checkLooks(browser, report); // it takes a third of the time there
     const megabytes = statSync(join(folder, `${report.name}.html`)).size / 1e6;
     console.log(`browser: ${report.name}: ${megabytes.toFixed(1)} MB, ready after ${report.ready} ms`);
