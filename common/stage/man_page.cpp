@@ -102,7 +102,7 @@ A file is missing, damaged, holds nothing usable, or cannot be written.
 Inputs do not belong together.
 .TP
 .B 5
-The result failed its own check, and was not written.
+The result failed its own check, and was not written; of strake check: a mesh is not sound.
 .TP
 .B 6
 The tolerance was not reached; places are named, and nothing was written.

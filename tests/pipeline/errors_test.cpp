@@ -179,6 +179,12 @@ TEST_F(Errors, CheckTakesArtifactsFromBeforeTheyHadAContent) {
   must_fail(kBadInput, "strake check field.hdf", "field.hdf: 'provenance' does not say");
 }
 
+TEST_F(Errors, CheckTellsUnsoundMeshesFromDamagedFiles) {
+  put("book.obj", "v 0 0 0\nv 0 0 1\nv 1 0 0\nv 0 1 0\nv -1 0 0\nf 1 2 3\nf 1 2 4\nf 1 2 5\n");
+  must_fail(kAlgorithmFailed, "strake check book.obj", "book.obj is not sound");
+  must_fail(kBadInput, "strake check none.obj book.obj", "none.obj");
+}
+
 /// What every stage refuses is not sound.
 TEST_F(Errors, CheckTellsWhatStagesRefuse) {
   run_chain("torus.ply", "");
