@@ -142,6 +142,7 @@ class Job:
     """One run of the program on one object."""
 
     def __init__(self, context, target):
+        program = program_path(context)  # before there is anything to remove
         self.target = target
         self.settings = context.scene.strake_remesh
         self.folder = tempfile.TemporaryDirectory(prefix="strake-")
@@ -153,8 +154,10 @@ class Job:
         self.source = bpy.data.meshes.new_from_object(
             evaluated, preserve_all_data_layers=True, depsgraph=context.evaluated_depsgraph_get())
         if not self.source.polygons:
+            self.folder.cleanup()
+            bpy.data.meshes.remove(self.source)
             raise Failure(f"'{target.name}' has no faces")
-        words = [program_path(context), "remesh", os.path.join(self.folder.name, "in.obj"), "-o",
+        words = [program, "remesh", os.path.join(self.folder.name, "in.obj"), "-o",
                  self.output, "--log-json", *option_words(self.settings, len(self.source.materials))]
         write_mesh(self.source, target.matrix_world, words[2])
         edges = os.path.join(self.folder.name, "edges.txt")

@@ -1,6 +1,7 @@
-"""Marked edges as the add-on takes them from meshes of Blender 3 and 4, without Blender: marked_edges_test.py ADD_ON."""
+"""What the add-on does with meshes of Blender 3 and 4, without Blender: without_blender_test.py ADD_ON."""
 
 import importlib.util
+import os
 import pathlib
 import sys
 import tempfile
@@ -16,6 +17,7 @@ def load_add_on():
     bpy = types.ModuleType("bpy")
     kinds = ("PropertyGroup", "Operator", "Panel", "AddonPreferences")
     bpy.types = types.SimpleNamespace(**{kind: type(kind, (), {}) for kind in kinds})
+    bpy.data = mock.MagicMock()
     bpy.props = types.ModuleType("bpy.props")
     for kind in ("Bool", "Enum", "Float", "Int", "String"):
         setattr(bpy.props, f"{kind}Property", mock.Mock())
@@ -51,6 +53,20 @@ class MarkedEdges(unittest.TestCase):
 
     def test_blender_4_without_creases_has_no_attribute(self):
         self.expect(types.SimpleNamespace(edges=[edge(0), edge(1, use_seam=True)], attributes={}), ["1 2"])
+
+
+class Failures(unittest.TestCase):
+    def test_nothing_is_left_behind(self):
+        add_on = load_add_on()
+        meshes = add_on.bpy.data.meshes
+        context = mock.MagicMock()
+        context.preferences.addons.get.return_value = None
+        for program, polygons in (("no-such-program", [0]), (sys.executable, [])):
+            meshes.reset_mock()
+            meshes.new_from_object.return_value.polygons = polygons
+            with mock.patch.dict(os.environ, STRAKE=program), self.assertRaises(add_on.Failure):
+                add_on.Job(context, mock.MagicMock())
+            self.assertEqual(meshes.remove.call_count, meshes.new_from_object.call_count)
 
 
 unittest.main()
