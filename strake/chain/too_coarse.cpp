@@ -122,8 +122,11 @@ void decimate_to_count(Session& session, const GoalStages& stages, const Goal& g
                     reached(session, "fitted", goal);
   const Option& option = stages.decimate.option("decimate-vertices");
   for (int i = 0; i < kMostCorrections; ++i) {
-    option.parse_into(std::to_string(std::max(std::llround(vertices), std::llround(option.min))));
+    const std::int64_t asked = std::max(std::llround(vertices), std::llround(option.min));
+    option.parse_into(std::to_string(asked));
     session.run(stages.decimate);
+    // Where the topology allows no fewer, to ask for fewer gives the same.
+    if (session.get<QuadMesh>("decimated").mesh.vertex_count() > asked) return;
     const double share = reached(session, "decimated", goal);
     if (std::abs(share - 1) <= kCountAccuracy) return;
     vertices /= share;

@@ -276,6 +276,33 @@ TEST(TooCoarse, TheRivalIsMadeOnceAndTakesThePlaceOfLines) {
   EXPECT_FALSE(rival.is_better(session, crossing)) << "it is that itself";
 }
 
+TEST(TooCoarse, WhereTheTopologyEndsDecimationNoFewerAreAskedFor) {
+  PolyMesh parts;  // tetrahedra, of which none can do with fewer vertices
+  for (int i = 0; i < 64; ++i) {
+    const Vec3 at(2 * (i % 4), 2 * (i / 4 % 4), 2 * (i / 16));
+    for (const Vec3& p : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}) {
+      parts.positions.push_back(at + p);
+    }
+    for (const std::array<Index, 3>& face :
+         {std::array<Index, 3>{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}) {
+      parts.add_face(std::array{4 * i + face[0], 4 * i + face[1], 4 * i + face[2]});
+    }
+  }
+  DecimationCount count;
+  Session session(count);
+  session.provide("input", Polygons{parts, "", {}}, "input", "");
+  session.run(import_stage());
+  QuadMesh same;
+  same.mesh = parts;
+  same.mesh_id = session.get<TriMesh>("mesh").id;
+  session.provide("fitted", same, "test", "");
+  CrossingPlaces crossing(session.get<TriMesh>("mesh"));
+  const Chain stages;
+  DecimatedRival rival(stages, Counted::vertices, 100);
+  EXPECT_FALSE(rival.is_better(session, crossing));
+  EXPECT_EQ(count.runs, 1);
+}
+
 // Faces along lines cross from sheet to sheet, and decimation makes no vertices.
 TEST(TooCoarse, MoreThanTheInputHasIsNamed) {
   RemeshOptions options;
