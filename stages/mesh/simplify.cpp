@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
+#include <utility>
+#include <vector>
 
 #include "common/geometry/segment.h"
 
@@ -125,18 +125,30 @@ bool only_one_edge_to(const PolygonGraph& graph, Index dart) {
 /// tetrahedron.
 bool puts_cells_back_to_back(const PolygonGraph& graph, Index dart) {
   const DartGraph& g = graph.graph();
-  std::map<std::set<Index>, Index> cell_of;  // by its corners
+  struct Cell {
+    std::vector<Index> corners;  // ascending
+    Index name;
+  };
+  std::vector<Cell> cells;
   for (const Index start : {dart, DartGraph::opposite(dart)}) {
     Index d = start;
     do {
       if (graph.is_hole(d)) continue;
-      std::set<Index> corners;
+      std::vector<Index> corners;
       for (const Index side : graph.cell(d)) {
-        corners.insert(g.from(side) == g.from(dart) ? g.to(dart) : g.from(side));
+        corners.push_back(g.from(side) == g.from(dart) ? g.to(dart) : g.from(side));
       }
+      std::sort(corners.begin(), corners.end());
+      corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
       if (corners.size() < 3) continue;  // vanishes
-      const Index cell = graph.name_of_cell(d);
-      if (cell_of.emplace(std::move(corners), cell).first->second != cell) return true;
+      const Index name = graph.name_of_cell(d);
+      const auto same =
+          std::ranges::find_if(cells, [&](const Cell& cell) { return cell.corners == corners; });
+      if (same == cells.end()) {
+        cells.push_back({std::move(corners), name});
+      } else if (same->name != name) {
+        return true;
+      }
     } while ((d = g.rotate_ccw(d)) != start);
   }
   return false;
