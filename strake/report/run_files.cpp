@@ -53,9 +53,9 @@ bool is_record(const Json& json) {
   const auto has = [&](const char* member, Json::value_t type) {
     return json.contains(member) && json[member].type() == type;
   };
-  using enum Json::value_t;
-  return has("stage", string) && has("options", object) && has("inputs", object) &&
-         has("result", object) && has("warnings", array);
+  using Type = Json::value_t;
+  return has("stage", Type::string) && has("options", Type::object) &&
+         has("inputs", Type::object) && has("result", Type::object) && has("warnings", Type::array);
 }
 
 /// The artifacts and reports of a run.
