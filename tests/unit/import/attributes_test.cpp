@@ -1,6 +1,7 @@
 #include "common/core/attributes.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +19,11 @@ namespace strake {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Tests run side by side, and each has files of its own.
+fs::path own_file(const std::string& name) {
+  return fs::path(testing::TempDir()) / ("strake-" + std::to_string(::getpid()) + "-" + name);
+}
 
 PolyMesh parsed(const std::string& text, const std::string& extension) {
   ReadReport report;
@@ -261,7 +267,7 @@ TEST(Attributes, ObjHasEveryPartOnce) {
   PolyMesh cube = shapes::cube();
   cube.attributes.labels = {{"usemtl", {1, 0, 1, 0, 1, 1}, {"steel", "wood"}},
                             {"o", {1, 0, 0, 1, 0, 1}, {"seat", "leg"}}};
-  const fs::path path = fs::path(testing::TempDir()) / "strake-parts.obj";
+  const fs::path path = own_file("parts.obj");
   write_mesh(path, cube);
   ReadReport report;
   const Attributes read = read_mesh(path, report).attributes;
@@ -280,7 +286,7 @@ TEST(Attributes, ObjHasEveryPartOnce) {
 
 /// What is written of parts, and what is read back.
 std::pair<std::vector<std::string>, PolyMesh> parts_written(const PolyMesh& mesh) {
-  const fs::path path = fs::path(testing::TempDir()) / "strake-parts.obj";
+  const fs::path path = own_file("parts.obj");
   write_mesh(path, mesh);
   std::pair<std::vector<std::string>, PolyMesh> result;
   std::ifstream file(path);
@@ -319,7 +325,7 @@ TEST(Attributes, EveryKindOfLabelsIsAStatementOfItsOwn) {
     for (Index f = 0; f < 6; ++f) labels.of_face.push_back(f / (static_cast<Index>(i) + 1));
     mesh.attributes.labels.push_back(labels);
   }
-  const fs::path path = fs::path(testing::TempDir()) / "strake-labels.obj";
+  const fs::path path = own_file("labels.obj");
   write_mesh(path, mesh);
   ReadReport report;
   const PolyMesh read = read_mesh(path, report);
