@@ -1,6 +1,5 @@
 #include "stages/import/carry.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 

@@ -10,6 +10,7 @@
 #include <numeric>
 #include <utility>
 
+#include "common/core/disjoint_sets.h"
 #include "stages/import/hole_patch.h"
 #include "stages/import/sheets.h"
 
@@ -25,23 +26,10 @@ struct Outline {
   std::vector<Index> beyond;  ///< half-edge from the next vertex to each
 };
 
-/// [V] the number of the component of each vertex: the least vertex in it.
-std::vector<Index> components_of(const Soup& soup) {
-  std::vector<Index> parent(soup.positions.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](Index v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
-  for (const auto& [a, b, c] : soup.faces) {
-    for (const Index v : {b, c}) {
-      const Index one = root(a);
-      const Index other = root(v);
-      parent[std::max(one, other)] = std::min(one, other);
-    }
-  }
-  for (Index v = 0; v < soup.vertex_count(); ++v) parent[v] = root(v);
-  return parent;
+Eigen::AlignedBox3d box_of(const Soup& soup, const Outline& outline) {
+  Eigen::AlignedBox3d box;
+  for (const Index v : outline.vertices) box.extend(soup.positions[v]);
+  return box;
 }
 
 /// An outline that meets itself in vertices of which there are copies, one a fan, is several that
@@ -114,16 +102,19 @@ std::vector<Outline> part_outlines(Soup& soup, bool& are_fans_joined) {
 
 /// Leaves those that are holes: neither too wide, nor where their component ends.
 void keep_holes(const Soup& soup, double most_across, std::vector<Outline>& outlines) {
-  const std::vector<Index> component = components_of(soup);
+  DisjointSets components(soup.vertex_count());
+  for (const auto& [a, b, c] : soup.faces) {
+    components.unite(a, b);
+    components.unite(b, c);
+  }
   std::vector<Eigen::AlignedBox3d> boxes(soup.positions.size());
   for (Index v = 0; v < soup.vertex_count(); ++v) {
-    boxes[component[v]].extend(soup.positions[v]);
+    boxes[components.find(v)].extend(soup.positions[v]);
   }
   std::erase_if(outlines, [&](const Outline& outline) {
-    const double size = boxes[component[outline.vertices[0]]].diagonal().norm();
-    Eigen::AlignedBox3d box;
-    for (const Index v : outline.vertices) box.extend(soup.positions[v]);
-    return box.diagonal().norm() > std::min(most_across, kLargestShare * size);
+    const double size = boxes[components.find(outline.vertices[0])].diagonal().norm();
+    const double across = box_of(soup, outline).diagonal().norm();
+    return across > std::min(most_across, kLargestShare * size);
   });
 }
 
@@ -179,29 +170,6 @@ HolePatch patch_of(const Soup& soup, const Neighbours& neighbours, const Outline
   return patch_of(hole, [&](std::size_t i, std::size_t j) {
     return !neighbours.are_joined(outline.vertices[i], outline.vertices[j]);
   });
-}
-
-/// Whether a patch lies on the surface around rather than beside it, as one over a flap does that
-/// hangs on an outline by a vertex.
-bool is_folded(const Soup& soup, const Outline& outline, const HolePatch& patch) {
-  constexpr double kFolded = -0.5;  // mean cosine of the turn across the outline
-  const auto n = static_cast<Index>(outline.vertices.size());
-  const auto place = [&](Index v) {
-    return v < n ? soup.positions[outline.vertices[v]] : patch.inside[v - n];
-  };
-  double sum = 0;
-  for (const Triangle& face : patch.faces) {
-    for (int i = 0; i < 3; ++i) {
-      const Index v = face[i];
-      if (v >= n || face[(i + 1) % 3] != (v + 1) % n) continue;
-      const auto& [a, b, c] = soup.faces[outline.beyond[v] / 3];
-      const Vec3& p = soup.positions[a];
-      const Vec3 beyond = (soup.positions[b] - p).cross(soup.positions[c] - p);
-      const Vec3 here = (place(face[1]) - place(face[0])).cross(place(face[2]) - place(face[0]));
-      sum += beyond.normalized().dot(here.normalized());
-    }
-  }
-  return sum < kFolded * n;
 }
 
 /// The side of an outline whose middle is nearest.
@@ -275,25 +243,21 @@ FilledHoles fill_holes(Soup& soup, double most_across) {
   keep_holes(soup, most_across, holes);
   const Neighbours neighbours(soup, holes);
   std::vector<HolePatch> patches(holes.size());
-  tbb::parallel_for(std::size_t{0}, holes.size(), [&](std::size_t i) {
-    patches[i] = patch_of(soup, neighbours, holes[i]);
-    if (is_folded(soup, holes[i], patches[i])) patches[i] = {};
-  });
+  tbb::parallel_for(std::size_t{0}, holes.size(),
+                    [&](std::size_t i) { patches[i] = patch_of(soup, neighbours, holes[i]); });
   FilledHoles result;
   for (std::size_t i = 0; i < holes.size(); ++i) {
     if (patches[i].faces.empty()) {
       ++result.left;
       continue;
     }
-    Eigen::AlignedBox3d box;
-    for (const Index v : holes[i].vertices) box.extend(soup.positions[v]);
-    result.widest = std::max(result.widest, box.diagonal().norm());
+    result.widest = std::max(result.widest, box_of(soup, holes[i]).diagonal().norm());
     ++result.filled;
     append(holes[i], patches[i], soup);
   }
-  if (are_fans_joined) {
-    Repairs again;
-    make_manifold(soup, again);
+  if (are_fans_joined) {  // where a hole stayed open its fans get their copies back
+    Repairs counted_before;
+    make_manifold(soup, counted_before);
   }
   return result;
 }

@@ -135,7 +135,8 @@ class Patch {
     }
   }
 
-  /// Puts the vertices inside where the patch goes on smoothly from the surface around.
+  /// Puts the vertices inside where the patch goes on smoothly from the surface around; where that
+  /// has no solution they stay.
   void fair() {
     const auto n = static_cast<Index>(outline_.places.size());
     const auto all = static_cast<Index>(surface_.n_vertices());

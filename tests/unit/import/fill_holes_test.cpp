@@ -111,6 +111,19 @@ TEST(FillHoles, ThatMeetInAVertexAreFilledEach) {
   EXPECT_EQ(count(result.report, "census.faces"), 2 * 12 * 12);
 }
 
+TEST(FillHoles, WhatHangsIntoOneByAVertexStays) {
+  PolyMesh open = shapes::filtered(shapes::grid(12, 12, [](double, double) { return 0.0; }),
+                                   [](Index f) { return f != 12 * 5 + 5; });
+  const Index corner = 13 * 5 + 5;
+  open.positions.emplace_back(5.5 / 12, 5.2 / 12, 0.01);
+  open.positions.emplace_back(5.2 / 12, 5.5 / 12, 0.01);
+  open.add_face(std::array<Index, 3>{corner, 13 * 13, 13 * 13 + 1});
+  const ImportResult result = shapes::imported(open, filling(30));
+  EXPECT_EQ(count(result.report, "holes.filled"), 1);
+  EXPECT_EQ(count(result.report, "census.boundary_loops"), 2);  // of the grid, and of the triangle
+  EXPECT_EQ(count(result.report, "census.faces"), 2 * 12 * 12 + 1);
+}
+
 TEST(FillHoles, OfManyCornersAreParted) {
   const PolyMesh torus = shapes::torus(600, 300);
   const ImportResult result =
