@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "common/geometry/angles.h"
-#include "common/geometry/frames.h"
 #include "stages/mesh/cell_shape.h"
+#include "stages/mesh/cell_view.h"
 #include "stages/mesh/off_surface.h"
 
 namespace strake {
@@ -20,45 +20,6 @@ constexpr double kBulge = 1e-3;
 constexpr int kMoveRounds = 8;
 constexpr std::size_t kLargestScored = 24;
 constexpr std::size_t kLargestSearched = 1000;
-
-/// A polygon seen along its normal, to tell which diagonals run inside it.
-class FlatPolygon {
- public:
-  FlatPolygon(const Polygon& p, const Vec3& n) {
-    const TangentFrame frame = tangent_frame(n);
-    for (const Vec3& v : p) points_.push_back(frame.tangent_from_world(v));
-  }
-
-  /// Whether the diagonal leaves both corners into the polygon and crosses no edge.
-  [[nodiscard]] bool contains(std::size_t i, std::size_t j) const {
-    if (!leaves_inwards(i, j) || !leaves_inwards(j, i)) return false;
-    const std::size_t n = points_.size();
-    for (std::size_t k = 0; k < n; ++k) {
-      const std::size_t l = (k + 1) % n;
-      if (k == i || k == j || l == i || l == j) continue;
-      const Vec2& a = points_[i];
-      const Vec2& b = points_[j];
-      if (turn(a, b, points_[k]) * turn(a, b, points_[l]) <= 0 &&
-          turn(points_[k], points_[l], a) * turn(points_[k], points_[l], b) <= 0) {
-        return false;
-      }
-    }
-    return true;
-  }
-
- private:
-  [[nodiscard]] bool leaves_inwards(std::size_t i, std::size_t j) const {
-    const std::size_t n = points_.size();
-    const Vec2& before = points_[(i + n - 1) % n];
-    const Vec2& after = points_[(i + 1) % n];
-    const bool left_of_after = turn(points_[i], after, points_[j]) > 0;
-    const bool right_of_before = turn(points_[i], before, points_[j]) < 0;
-    const bool convex = turn(before, points_[i], after) >= 0;
-    return convex ? left_of_after && right_of_before : left_of_after || right_of_before;
-  }
-
-  std::vector<Vec2> points_;
-};
 
 class Partitioner {
  public:
@@ -116,16 +77,16 @@ class Partitioner {
   Index best_diagonal(const DartLoop& cell) {
     const DartGraph& g = graph_.graph();
     const Polygon p = corner_positions(graph_, cell);
-    const Vec3 n = vector_area(p).normalized();
+    const CellView view(graph_, cell, p);
     std::vector<char> reflex(p.size(), 0);
     bool any_reflex = false;
     for (std::size_t i = 0; i < p.size(); ++i) {
+      const Vec3& n = view.normal(i);
       reflex[i] = is_reflex(p, i, n) && (interior_angle(p, i, n) > kMovableAngle || p.size() <= 5);
       any_reflex = any_reflex || reflex[i] != 0;
     }
-    const FlatPolygon flat(p, n);
     const OffSurface off(graph_, cell, heights_);
-    if (p.size() > kLargestScored) return shortest_balanced_diagonal(cell, p, flat);
+    if (p.size() > kLargestScored) return shortest_balanced_diagonal(cell, p, view, off);
     for (const bool relaxed : {false, true}) {
       double best = std::numeric_limits<double>::infinity();
       std::pair<std::size_t, std::size_t> choice{0, 0};
@@ -134,18 +95,19 @@ class Partitioner {
           if (i == 0 && j + 1 == p.size()) continue;
           if (!relaxed && any_reflex && reflex[i] == 0 && reflex[j] == 0) continue;
           if (g.from(cell[i]) == g.from(cell[j])) continue;
-          if (!relaxed && !flat.contains(i, j)) continue;
+          if (!relaxed && !view.contains(i, j)) continue;
           if (graph_.find_edge(cell[i], g.from(cell[j])) != kNone) continue;
           Polygon one(p.begin() + static_cast<std::ptrdiff_t>(i),
                       p.begin() + static_cast<std::ptrdiff_t>(j) + 1);
           Polygon two(p.begin() + static_cast<std::ptrdiff_t>(j), p.end());
           two.insert(two.end(), p.begin(), p.begin() + static_cast<std::ptrdiff_t>(i) + 1);
-          double score = shape_penalty(one, n) + shape_penalty(two, n) + off.price(p[i], p[j]);
+          double score = shape_penalty(one, view.normal_of(i, j)) +
+                         shape_penalty(two, view.normal_of(j, i)) + off.price(p[i], p[j]);
           if (relaxed && !(score < std::numeric_limits<double>::infinity())) {
             // Any division is better than none where a face has too many sides.
             score = 1e6 + (p[i] - p[j]).norm();
           }
-          if (!flat.contains(i, j)) score += 1e3;
+          if (!view.contains(i, j)) score += 1e3;
           if (score < best) {
             best = score;
             choice = {i, j};
@@ -183,10 +145,11 @@ class Partitioner {
   }
 
   /// For cells with too many sides to score all diagonals: the shortest that leaves at least a
-  /// quarter of the sides on each side. Of very many corners only every few ones are looked at:
-  /// ways are as many as their squares, and of a needle none lies inside.
-  Index shortest_balanced_diagonal(const DartLoop& cell, const Polygon& p,
-                                   const FlatPolygon& flat) {
+  /// quarter of the sides on each side, and in folded cells lies near the surface. Of very many
+  /// corners only every few ones are looked at: ways are as many as their squares, and of a needle
+  /// none lies inside.
+  Index shortest_balanced_diagonal(const DartLoop& cell, const Polygon& p, const CellView& view,
+                                   const OffSurface& off) {
     const DartGraph& g = graph_.graph();
     const std::size_t n = p.size();
     const std::size_t step = 1 + n / kLargestSearched;
@@ -195,10 +158,12 @@ class Partitioner {
       std::pair<std::size_t, std::size_t> choice{0, 0};
       for (std::size_t i = 0; i < n; i += step) {
         for (std::size_t j = i + n / 4; j < n && j - i <= n - n / 4; j += step) {
-          const double length = (p[i] - p[j]).squaredNorm();
+          double length = (p[i] - p[j]).squaredNorm();
           if (length >= best || g.from(cell[i]) == g.from(cell[j])) continue;
-          if (inside && !flat.contains(i, j)) continue;
+          if (inside && !view.contains(i, j)) continue;
           if (graph_.find_edge(cell[i], g.from(cell[j])) != kNone) continue;
+          if (view.is_folded()) length *= 1 + off.price(p[i], p[j]);
+          if (length >= best) continue;
           best = length;
           choice = {i, j};
         }
