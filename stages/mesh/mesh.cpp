@@ -1,5 +1,6 @@
 #include "stages/mesh/mesh.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -26,6 +27,7 @@
 #include "stages/mesh/regularise.h"
 #include "stages/mesh/sharp_points.h"
 #include "stages/mesh/simplify.h"
+#include "stages/mesh/small_components.h"
 #include "stages/mesh/strip_count.h"
 
 namespace strake {
@@ -126,14 +128,39 @@ bool find_starved(const TriMesh& mesh, const std::vector<Index>& component,
   return found;
 }
 
-/// Protects the triangle edges of some components from removal.
+/// Protects the triangle edges of some components from removal, instead of the lines there.
 void keep_triangles(const std::vector<Index>& component, const std::vector<Triangles>& triangles,
                     Overlay& overlay) {
   for (Index e = 0; e < overlay.graph.dart_count() / 2; ++e) {
-    if (overlay.kind[e] != EdgeKind::surface) continue;
     const Index face = overlay.nodes[overlay.graph.from(2 * e)].at.face;
-    if (triangles[component[face]] != Triangles::merged) overlay.kind[e] = EdgeKind::line;
+    if (triangles[component[face]] == Triangles::merged) continue;
+    if (overlay.kind[e] == EdgeKind::surface) {
+      overlay.kind[e] = EdgeKind::line;
+    } else if (overlay.kind[e] == EdgeKind::line) {
+      overlay.kind[e] = EdgeKind::surface;
+      overlay.line[e] = kNone;
+    }
   }
+}
+
+/// [components] cells that lines would make of those that keep their triangles; infinite: of
+/// others.
+std::vector<double> wanted_cells(const TriMesh& mesh, const LineSet& lines,
+                                 const std::vector<Index>& component,
+                                 const std::vector<Triangles>& triangles) {
+  std::vector<double> cells;
+  for (const Triangles what : triangles) {
+    cells.push_back(what == Triangles::merged ? std::numeric_limits<double>::infinity() : 0);
+  }
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const auto& [a, b, c] = mesh.faces[f];
+    const Vec3& p = mesh.positions[a];
+    const double area = (mesh.positions[b] - p).cross(mesh.positions[c] - p).norm() / 2;
+    for (const Index w : mesh.face_wedges[f]) {
+      cells[component[f]] += area / 3 / (lines.spacing_along_min[w] * lines.spacing_along_max[w]);
+    }
+  }
+  return cells;
 }
 
 /// Protects the edges of what is left of components from all that comes after simplifying.
@@ -214,6 +241,7 @@ struct Cells {
   Index cut_pieces = 0;
   Index split_features = 0;
   Index redrawn_flats = 0;
+  Index thinned_out = 0;  ///< nodes of components that keep their triangles
 };
 
 /// Pure quads are made from faces of at most five sides.
@@ -246,6 +274,10 @@ Cells divide_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions&
       cut_out_cells(mesh, lines, component, triangles, borders, cuts, observer), {}, {}, {}, {}};
   cells.cut_pieces = cuts;
   observer.report("simplifying cells", 0.6);
+  if (std::ranges::any_of(triangles, [](Triangles what) { return what != Triangles::merged; })) {
+    cells.thinned_out = simplify_small_components(cells.graph, component,
+                                                  wanted_cells(mesh, lines, component, triangles));
+  }
   cells.simplified =
       simplify(cells.graph, [&](const SurfaceNode& node) { return local_size(mesh, lines, node); },
                {.shortest = kShortestEdge, .corner_distance = options.corner_distance});
@@ -325,6 +357,7 @@ MeshResult mesh_lines(const TriMesh& mesh, const LineSet& lines, const MeshOptio
   }
   report.set("mesh.cut_pieces", static_cast<std::int64_t>(cells.cut_pieces));
   report.set("mesh.components_kept_as_triangles", kept);
+  report.set("mesh.nodes_taken_out_of_small_components", std::int64_t{cells.thinned_out});
   report.set("mesh.contracted_edges", static_cast<std::int64_t>(cells.simplified.contracted_edges));
   report.set("mesh.removed_bigons", static_cast<std::int64_t>(cells.simplified.removed_bigons));
   report.set("mesh.removed_loops", static_cast<std::int64_t>(cells.simplified.removed_loops));

@@ -1,8 +1,10 @@
 #include "stages/mesh/patch.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
 
+#include "common/geometry/angles.h"
 #include "common/geometry/quad_division.h"
 #include "stages/mesh/cell_shape.h"
 #include "stages/mesh/off_surface.h"
@@ -11,6 +13,20 @@ namespace strake {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Most that a quad between kept nodes turns along its shorter diagonal: of what is left of small
+/// components quads across an edge would be a third of the shape.
+constexpr double kMostTurn = 50 * kDegree;
+
+/// Whether a quad turns by more than that.
+bool is_folded(const Polygon& q) {
+  const bool first = (q[2] - q[0]).squaredNorm() <= (q[3] - q[1]).squaredNorm();
+  const Vec3& a = q[first ? 0 : 1];
+  const Vec3 diagonal = q[first ? 2 : 3] - a;
+  const Vec3 right = (q[first ? 1 : 2] - a).cross(diagonal);
+  const Vec3 left = diagonal.cross(q[first ? 3 : 0] - a);
+  return angle_between(right, left) > kMostTurn;
+}
 
 /// Finds the best division of a patch.
 class Divider {
@@ -74,6 +90,7 @@ class Divider {
     for (std::size_t k = 0; k < 4; ++k) {
       if (is_reflex(q, k, n / length)) return kInfinity;
     }
+    if (graph_.is_kept(node_at(i)) && is_folded(q)) return kInfinity;
     const double penalty = shape_penalty(q, normal_);
     return penalty <= worst_ ? penalty : kInfinity;
   }

@@ -133,6 +133,7 @@ PolygonGraph::PolygonGraph(const TriMesh& mesh, const Overlay& overlay, const Bo
     graph_.link(dart_of[d], dart_of[from.next(last)]);
   }
   rank_.assign(nodes_.size(), NodeRank::line);
+  is_kept_.assign(nodes_.size(), 0);
   for (Index d = 0; d < graph_.dart_count(); ++d) {
     const Index n = graph_.from(d);
     if (!is_barrier(d)) continue;
@@ -436,6 +437,7 @@ Index PolygonGraph::split(Index dart, double share) {
   made.vertex = kNone;
   nodes_.push_back(made);
   rank_.push_back(is_barrier(even) ? NodeRank::barrier : NodeRank::line);
+  is_kept_.push_back(0);
   const Index second = graph_.split_edge(even, node);
   kind_.push_back(kind_[edge]);
   line_.push_back(line_[edge]);

@@ -68,6 +68,11 @@ class PolygonGraph {
   /// From now on the edge counts as a feature and its nodes as corners: nothing merges or removes
   /// them.
   void hold(Index dart);
+  /// Forgets the course of an edge that is on no feature or boundary: it becomes the straight way.
+  void straighten(Index dart) { course_[DartGraph::edge_of(dart)].clear(); }
+  /// From now on the node is merged with no other one.
+  void keep(Index n) { is_kept_[n] = 1; }
+  [[nodiscard]] bool is_kept(Index n) const { return is_kept_[n] != 0; }
   /// Merges from(dart) into to(dart). Along a feature or boundary line the course of the edge goes
   /// to the next edge of the line, so that no part of it is forgotten.
   /// \pre as for DartGraph::contract
@@ -125,6 +130,7 @@ class PolygonGraph {
   DartGraph graph_;
   std::vector<SurfaceNode> nodes_;
   std::vector<NodeRank> rank_;
+  std::vector<char> is_kept_;                     ///< [nodes]
   std::vector<EdgeKind> kind_;                    ///< [edges]
   std::vector<Index> line_;                       ///< [edges]
   std::vector<char> outer_;                       ///< [darts]

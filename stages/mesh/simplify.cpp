@@ -190,6 +190,14 @@ void clean_up(PolygonGraph& graph, std::initializer_list<Index> darts, SimplifyC
   }
 }
 
+void contract_edge(PolygonGraph& graph, Index dart, SimplifyCounts& counts) {
+  const Index left = graph.graph().next(dart);
+  const Index right = graph.graph().next(DartGraph::opposite(dart));
+  graph.contract(dart);
+  ++counts.contracted_edges;
+  clean_up(graph, {left, right}, counts);
+}
+
 void contract_short_edges(PolygonGraph& graph, const LocalSize& size, const SimplifyLimits& limits,
                           SimplifyCounts& counts) {
   const DartGraph& g = graph.graph();
@@ -224,11 +232,7 @@ void contract_short_edges(PolygonGraph& graph, const LocalSize& size, const Simp
             limits.corner_distance * size_at_edge(graph, size, dart)) {
       continue;
     }
-    const Index left = g.next(dart);
-    const Index right = g.next(DartGraph::opposite(dart));
-    graph.contract(dart);
-    ++counts.contracted_edges;
-    clean_up(graph, {left, right}, counts);
+    contract_edge(graph, dart, counts);
   }
 }
 
@@ -327,6 +331,7 @@ bool keeps_topology(const PolygonGraph& graph, Index dart) {
   const Index u = g.from(dart);
   const Index v = g.to(dart);
   if (u == v || graph.rank(u) > graph.rank(v)) return false;
+  if (graph.is_kept(u) || graph.is_kept(v)) return false;
   if (graph.rank(u) != NodeRank::line && !graph.is_barrier(dart)) return false;
   // A feature edge between two boundary nodes: contracting it would pinch the surface.
   if (graph.kind(dart) != EdgeKind::boundary && on_boundary(graph, dart) &&
@@ -367,6 +372,12 @@ bool keeps_topology(const PolygonGraph& graph, Index dart) {
 
 bool can_contract(const PolygonGraph& graph, Index dart) {
   return keeps_topology(graph, dart) && keeps_faces(graph, dart);
+}
+
+SimplifyCounts contract_edge(PolygonGraph& graph, Index dart) {
+  SimplifyCounts counts;
+  contract_edge(graph, dart, counts);
+  return counts;
 }
 
 SimplifyCounts simplify(PolygonGraph& graph, const LocalSize& size, const SimplifyLimits& limits) {

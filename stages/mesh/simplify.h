@@ -31,6 +31,10 @@ struct SimplifyLimits {
 /// Never merges across feature or boundary lines, and never changes the topology of the surface.
 SimplifyCounts simplify(PolygonGraph& graph, const LocalSize& size, const SimplifyLimits& limits);
 
+/// Merges from(dart) into to(dart), and removes cells of two sides that this leaves.
+/// \pre can_contract(graph, dart)
+SimplifyCounts contract_edge(PolygonGraph& graph, Index dart);
+
 /// Removes one edge of a cell with two sides, the less important one. \return whether it was one
 bool remove_bigon(PolygonGraph& graph, Index dart);
 

@@ -67,6 +67,7 @@ std::optional<Moves> merging_moves(const PolygonGraph& graph, const Strip& strip
     const bool a_free = graph.rank(a) == NodeRank::line;
     const bool b_free = graph.rank(b) == NodeRank::line;
     if (graph.is_barrier(rung) || (!a_free && !b_free)) return std::nullopt;
+    if (graph.is_kept(a) || graph.is_kept(b)) return std::nullopt;
     if (moves.find(a) != nullptr || moves.find(b) != nullptr) return std::nullopt;
     const Vec3 to = a_free && b_free ? middle(graph, rung) : graph.position(a_free ? b : a);
     moves.add(a, to);

@@ -3,7 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <numbers>
 #include <random>
 #include <set>
 
@@ -259,6 +261,68 @@ TEST(MeshLines, TurnsNoComponentInsideOut) {
   }
   EXPECT_EQ(volumes.size(), 100u);
   for (const auto& [c, volume] : volumes) EXPECT_GT(volume, 0) << "component " << c;
+}
+
+/// Of a component without lines, which are `spacing` apart.
+QuadMesh small_component(const TriMesh& surface, double spacing) {
+  LineSet lines;
+  lines.offsets = {0};
+  set_spacing(surface, spacing, lines);
+  return mesh_of(surface, lines);
+}
+
+/// The volume of a closed mesh whose faces are cut into fans.
+double volume_of(const PolyMesh& mesh) {
+  double volume = 0;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const std::span<const Index> face = mesh.face(f);
+    for (std::size_t i = 1; i + 1 < face.size(); ++i) {
+      volume +=
+          mesh.positions[face[0]].dot(mesh.positions[face[i]].cross(mesh.positions[face[i + 1]])) /
+          6;
+    }
+  }
+  return volume;
+}
+
+TEST(MeshLines, MakesAsManyCellsOfASmallSphereAsLinesWould) {
+  SampleOptions sample;
+  sample.faces = 2000;
+  const TriMesh surface = support::import_tri_mesh(make_sample(SampleKind::sphere, sample));
+  for (const double spacing : {0.4, 0.6, 0.9, 1.2}) {
+    SCOPED_TRACE(spacing);
+    const QuadMesh result = small_component(surface, spacing);
+    expect_same_topology(surface, result);
+    const double cells = 4 * std::numbers::pi / (spacing * spacing);
+    EXPECT_NEAR(result.mesh.vertex_count(), cells + 2, 2 + 0.25 * cells);
+    // More than that of an octahedron in the sphere, which has the fewest corners of them all.
+    EXPECT_GT(volume_of(result.mesh), 4.0 / 3);
+  }
+}
+
+TEST(MeshLines, LeavesTheRimsOfASmallCylinder) {
+  SampleOptions sample;
+  sample.faces = 2000;
+  const support::Prepared prepared = support::prepare(make_sample(SampleKind::cylinder, sample));
+  const LineSet all = support::trace(prepared);
+  LineSet rims = subset(all, [&](Index l) { return all.family[l] == LineFamily::feature; });
+  ASSERT_EQ(rims.line_count(), 2);
+  set_spacing(prepared.mesh, 1.2, rims);
+  const QuadMesh result = mesh_of(prepared.mesh, rims);
+  expect_same_topology(prepared.mesh, result);
+  double bottom = std::numeric_limits<double>::infinity();
+  double top = -bottom;
+  for (const Vec3& p : prepared.mesh.positions) {
+    bottom = std::min(bottom, (p + prepared.mesh.origin).z());
+    top = std::max(top, (p + prepared.mesh.origin).z());
+  }
+  const auto rim = [&](double z) {
+    return std::ranges::count_if(result.mesh.positions, [&](const Vec3& p) {
+      return std::abs(p.z() - z) < 1e-9 && std::abs(p.head<2>().norm() - 1) < 1e-6;
+    });
+  };
+  EXPECT_GE(rim(bottom), 4);
+  EXPECT_GE(rim(top), 4);
 }
 
 TEST(MeshLines, RefusesChordsThatDoNotJoinTwoSidesOfTheirFace) {
