@@ -20,6 +20,11 @@ inline double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
   return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
 }
 
+/// Whether two segments have a point in common; of two on one straight line it says so always.
+inline bool segments_meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  return turn(a, b, c) * turn(a, b, d) <= 0 && turn(c, d, a) * turn(c, d, b) <= 0;
+}
+
 /// Interior angle at corner i, in [0, 2 pi), seen along the unit normal n.
 double interior_angle(const Polygon& p, std::size_t i, const Vec3& n);
 

@@ -8,11 +8,6 @@
 namespace strake {
 namespace {
 
-/// Whether the segments a b and c d meet in the plane.
-bool meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-  return turn(a, b, c) * turn(a, b, d) <= 0 && turn(c, d, a) * turn(c, d, b) <= 0;
-}
-
 /// Whether the way from a corner to `to` lies between those to the corners before and after it.
 bool lies_between(const Vec2& before, const Vec2& corner, const Vec2& after, const Vec2& to) {
   const bool left_of_after = turn(corner, after, to) > 0;
@@ -27,7 +22,7 @@ bool meets_itself(const std::vector<Vec2>& outline) {
   for (std::size_t i = 0; i + 2 < n; ++i) {
     for (std::size_t k = i + 2; k < n; ++k) {
       const std::size_t l = (k + 1) % n;
-      if (l != i && meet(outline[i], outline[i + 1], outline[k], outline[l])) return true;
+      if (l != i && segments_meet(outline[i], outline[i + 1], outline[k], outline[l])) return true;
     }
   }
   return false;
@@ -89,7 +84,7 @@ bool CellView::is_crossed(std::size_t i, std::size_t j) const {
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t l = (k + 1) % n;
     if (k == i || k == j || l == i || l == j) continue;
-    if (meet(flat_[i], flat_[j], flat_[k], flat_[l])) return true;
+    if (segments_meet(flat_[i], flat_[j], flat_[k], flat_[l])) return true;
   }
   return false;
 }
@@ -109,7 +104,7 @@ bool CellView::is_crossed_nearby(std::size_t i, std::size_t j) const {
     if (normals_[k].dot(along) < 0 || normals_[l].dot(along) < 0) continue;
     const double height = std::min(std::abs((corners_[k] - middle).dot(along)),
                                    std::abs((corners_[l] - middle).dot(along)));
-    if (height < reach && meet(seen(i), seen(j), seen(k), seen(l))) return true;
+    if (height < reach && segments_meet(seen(i), seen(j), seen(k), seen(l))) return true;
   }
   return false;
 }

@@ -19,11 +19,6 @@ constexpr std::size_t kTangle = 20;
 /// Corners around a node that turn by more are in another order than their darts.
 constexpr double kFullTurn = 2 * M_PI + 1e-6;
 
-/// Whether two segments have a point in common. \pre their boxes have
-bool meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-  return turn(a, b, c) * turn(a, b, d) <= 0 && turn(c, d, a) * turn(c, d, b) <= 0;
-}
-
 BoxTree::Box box_around(const Vec2& a, const Vec2& b) {
   const Vec2 low = a.cwiseMin(b);
   const Vec2 high = a.cwiseMax(b);
@@ -126,7 +121,7 @@ FlatParts::Crossings FlatParts::crossings(Index part, bool with_inside) const {
       if (j <= static_cast<Index>(i)) return;
       const Segment& t = segments[j];
       if (s.from == t.from || s.from == t.to || s.to == t.from || s.to == t.to) return;
-      if (meet(s.a, s.b, t.a, t.b)) pairs.emplace_back(s.dart, t.dart);
+      if (segments_meet(s.a, s.b, t.a, t.b)) pairs.emplace_back(s.dart, t.dart);
     });
   }
   return pairs;
