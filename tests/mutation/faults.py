@@ -175,7 +175,7 @@ FAULTS = [
           "if (graph.is_barrier(a) || graph.is_barrier(b)) continue;",
           "mesh_tests", "^SplitCrossingFeatures"),
     Fault("edges of flats that cross others stay",
-          "stages/mesh/flat_parts.cpp",
+          "stages/mesh/cell_shape.h",
           "turn(a, b, c) * turn(a, b, d) <= 0 && turn(c, d, a) * turn(c, d, b) <= 0",
           "turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) > 0",
           "mesh_tests", "^RedrawFlats|^SplitCrossingFeatures"),
