@@ -1,5 +1,6 @@
 #include "stages/mesh/edge_heights.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <bit>
 #include <cstddef>
@@ -29,6 +30,12 @@ double EdgeHeights::at(const Vec3& a, const Vec3& b) const {
   Edge& edge = last[hash_of(a, b)];
   if (edge.a != a || edge.b != b) edge = {a, b, measure(a, b)};
   return edge.height;
+}
+
+Vec3 EdgeHeights::normal_below(const Vec3& a, const Vec3& b) const {
+  const std::vector<Vec3>& p = surface_.positions();
+  const auto [i, j, k] = surface_.triangles()[surface_.closest((a + b) / 2).triangle];
+  return (p[j] - p[i]).cross(p[k] - p[i]);
 }
 
 double EdgeHeights::measure(const Vec3& a, const Vec3& b) const {

@@ -21,6 +21,8 @@ class EdgeHeights {
 
   /// The largest of the distances from the mesh, model units, of three places on the edge.
   [[nodiscard]] double at(const Vec3& a, const Vec3& b) const;
+  /// Normal of the triangle nearest to the middle of the edge, of any length.
+  [[nodiscard]] Vec3 normal_below(const Vec3& a, const Vec3& b) const;
 
  private:
   struct Edge {

@@ -108,6 +108,10 @@ class Partitioner {
             score = 1e6 + (p[i] - p[j]).norm();
           }
           if (!view.contains(i, j)) score += 1e3;
+          if (score < best && (is_lid(cell, p, i, j) || is_lid(cell, p, j, i))) {
+            if (!relaxed) continue;
+            score += 2e3;  // more than what seems to run outside of a cell that goes around
+          }
           if (score < best) {
             best = score;
             choice = {i, j};
@@ -121,6 +125,21 @@ class Partitioner {
       if (!relaxed && static_cast<Index>(p.size()) <= max_sides_ && !any_reflex) return kNone;
     }
     return kNone;
+  }
+
+  /// Whether the diagonal cuts off a part along features or boundaries alone, from corner i to j,
+  /// that looks against the surface under it: of the wall of a pipe, between places of its rim, a
+  /// second end upside down.
+  [[nodiscard]] bool is_lid(const DartLoop& cell, const Polygon& p, std::size_t i,
+                            std::size_t j) const {
+    if (heights_ == nullptr) return false;
+    Polygon part;
+    for (std::size_t k = i; k != j; k = (k + 1) % p.size()) {
+      if (!graph_.is_barrier(cell[k])) return false;
+      part.push_back(p[k]);
+    }
+    part.push_back(p[j]);
+    return vector_area(part).dot(heights_->normal_below(p[i], p[j])) < 0;
   }
 
   /// Divides a cell that no diagonal divides, from a new node in its middle.

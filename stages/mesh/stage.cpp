@@ -57,7 +57,7 @@ void warn_of_missed_count(const Inputs& inputs, const PolyMesh& made, Report& re
 Stage mesh_stage() {
   Stage stage;
   stage.name = "mesh";
-  stage.version = 25;
+  stage.version = 26;
   stage.summary = "Builds the quad-dominant mesh whose edges run along the lines.";
   stage.inputs = {{"mesh", PortKind::mesh, "mesh artifact"},
                   {"lines", PortKind::lines, "lines artifact of that mesh"}};

@@ -325,6 +325,33 @@ TEST(MeshLines, LeavesTheRimsOfASmallCylinder) {
   EXPECT_GE(rim(top), 4);
 }
 
+/// A pipe with two rulings, whatever way it looks: the cells between them are half of its wall, and
+/// a little less or more than that.
+TEST(MeshLines, ClosesNoEndOfAPipeFromItsWall) {
+  SampleOptions sample;
+  sample.faces = 3000;
+  const PolyMesh pipe = make_sample(SampleKind::cylinder, sample);
+  for (const double turned : {1.0, -1.0}) {
+    const PolyMesh soup = support::transformed(pipe, Vec3(1, 1, turned).asDiagonal(), Vec3::Zero());
+    const support::Prepared prepared = support::prepare(soup);
+    const LineSet all = support::trace(prepared);
+    for (const double x : {0.0004, 0.2}) {
+      SCOPED_TRACE(::testing::Message() << "x " << x << ", turned " << turned);
+      LineSet lines = subset(all, [&](Index l) { return all.family[l] == LineFamily::feature; });
+      add_level_lines(
+          prepared.mesh, [&](const Vec3& p) { return p.x() + prepared.mesh.origin.x() - x; },
+          LineFamily::minimum, lines);
+      set_spacing(prepared.mesh, 1, lines);
+      MeshOptions options;
+      options.odd_price = 0;
+      options.valence_price = 0;
+      const QuadMesh result = support::mesh(prepared, lines, options);
+      expect_same_topology(prepared.mesh, result);
+      EXPECT_GT(volume_of(result.mesh) / volume_of(soup), 0.85);
+    }
+  }
+}
+
 TEST(MeshLines, RefusesChordsThatDoNotJoinTwoSidesOfTheirFace) {
   SampleOptions sample;
   sample.faces = 500;
