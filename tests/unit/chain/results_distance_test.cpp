@@ -52,7 +52,7 @@ TEST(Remesh, WorstPlacesComeNearerForACount) {
   sample.faces = 20000;
   const PolyMesh mesh = make_sample(SampleKind::part, sample);
   int nearer = 0;
-  for (const std::int64_t count : {350, 500}) {
+  for (const std::int64_t count : {400, 600}) {
     RemeshOptions options;
     options.trace.vertices = count;
     options.worst.share = 0;
