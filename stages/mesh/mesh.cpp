@@ -49,6 +49,10 @@ enum class Triangles : std::uint8_t {
          ///< divided
 };
 
+bool are_all_merged(const std::vector<Triangles>& triangles) {
+  return std::ranges::all_of(triangles, [](Triangles what) { return what == Triangles::merged; });
+}
+
 /// The wanted edge length where a node lies: the smaller of the two line distances.
 double local_size(const TriMesh& mesh, const LineSet& lines, const SurfaceNode& node) {
   double size = 0;
@@ -131,6 +135,7 @@ bool find_starved(const TriMesh& mesh, const std::vector<Index>& component,
 /// Protects the triangle edges of some components from removal, instead of the lines there.
 void keep_triangles(const std::vector<Index>& component, const std::vector<Triangles>& triangles,
                     Overlay& overlay) {
+  if (are_all_merged(triangles)) return;
   for (Index e = 0; e < overlay.graph.dart_count() / 2; ++e) {
     const Index face = overlay.nodes[overlay.graph.from(2 * e)].at.face;
     if (triangles[component[face]] == Triangles::merged) continue;
@@ -274,7 +279,7 @@ Cells divide_cells(const TriMesh& mesh, const LineSet& lines, const MeshOptions&
       cut_out_cells(mesh, lines, component, triangles, borders, cuts, observer), {}, {}, {}, {}};
   cells.cut_pieces = cuts;
   observer.report("simplifying cells", 0.6);
-  if (std::ranges::any_of(triangles, [](Triangles what) { return what != Triangles::merged; })) {
+  if (!are_all_merged(triangles)) {
     cells.thinned_out = simplify_small_components(cells.graph, component,
                                                   wanted_cells(mesh, lines, component, triangles));
   }
